@@ -1,0 +1,140 @@
+#include "common/command.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+static const char *command_name = "balloon";
+static bool command_quiet;
+
+static void print_version(FILE *stream, struct argp_state *state)
+{
+    (void)state;
+    fprintf(stream, "%s %s\n", command_name, BALLOON_VERSION);
+}
+
+void command_begin(const char *program)
+{
+    command_name = program;
+    argp_program_version_hook = print_version;
+    argp_err_exit_status = 2;
+}
+
+void command_set_quiet(bool quiet)
+{
+    command_quiet = quiet;
+}
+
+void command_note(const char *format, ...)
+{
+    if (command_quiet)
+        return;
+    va_list arguments;
+    va_start(arguments, format);
+    fprintf(stderr, "%s: ", command_name);
+    vfprintf(stderr, format, arguments);
+    fputc('\n', stderr);
+    va_end(arguments);
+}
+
+int command_fail(const struct error *err)
+{
+    fprintf(stderr, "%s: %s\n", command_name, err->text[0] ? err->text : status_meaning(err->status));
+    return status_exit_code(err->status);
+}
+
+int command_end(void)
+{
+    if (fflush(stdout) || ferror(stdout)) {
+        fprintf(stderr, "%s: cannot write the results to stdout: %s\n", command_name, strerror(errno));
+        return 1;
+    }
+    return 0;
+}
+
+bool number_parse(const char *text, double *value)
+{
+    char *end;
+    double parsed = strtod(text, &end);
+    if (end == text || *end || !isfinite(parsed))
+        return false;
+    *value = parsed;
+    return true;
+}
+
+double command_number(struct argp_state *state, const char *option, const char *argument, double least, double most)
+{
+    double value = 0;
+    if (!number_parse(argument, &value) || !(value >= least && value <= most))
+        argp_error(state, "%s %s: must be a number from %g to %g", option, argument, least, most);
+    return value;
+}
+
+long command_whole(struct argp_state *state, const char *option, const char *argument, long least, long most)
+{
+    char *end;
+    errno = 0;
+    long value = strtol(argument, &end, 10);
+    if (end == argument || *end || errno || value < least || value > most)
+        argp_error(state, "%s %s: must be a whole number from %ld to %ld", option, argument, least, most);
+    return value;
+}
+
+static struct {
+    const char *what, *unit;
+    double total, began, shown;
+    bool on;
+} progress;
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+void progress_begin(const char *what, const char *unit, double total)
+{
+    progress.on = !command_quiet && isatty(STDERR_FILENO);
+    progress.what = what;
+    progress.unit = unit;
+    progress.total = total;
+    progress.began = now();
+    progress.shown = 0;
+}
+
+static void show(double done, double time)
+{
+    enum { WIDTH = 30 };
+    double spent = time - progress.began;
+    double rate = spent > 0 ? done / spent : 0;
+    double share = progress.total > 0 ? fmin(done / progress.total, 1) : 0;
+    char bar[WIDTH + 1];
+    for (int i = 0; i < WIDTH; i++)
+        bar[i] = i < share * WIDTH ? '#' : '.';
+    bar[WIDTH] = '\0';
+    fprintf(stderr, "\r%s %s %3.0f %%  %.0f %s/s  %.0f s left \033[K", progress.what, bar, 100 * share, rate,
+            progress.unit, rate > 0 ? (progress.total - done) / rate : 0);
+    progress.shown = time;
+}
+
+void progress_update(double done)
+{
+    if (!progress.on)
+        return;
+    double time = now();
+    if (time - progress.shown >= 0.1)
+        show(done, time);
+}
+
+void progress_end(void)
+{
+    if (progress.on)
+        fputs("\r\033[K", stderr);
+    progress.on = false;
+}

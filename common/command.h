@@ -1,0 +1,44 @@
+/*
+ * What the three programs' main() have in common: how they name themselves, complain, note and show progress.
+ * Only the program layer (main.c, window.c) includes this; libraries never print.
+ *
+ *     command_begin("balloon-surface");         first: --version, and argp's exit code 2
+ *     argp_parse(...);
+ *     if (surface_make(..., &err)) return command_fail(&err);
+ */
+#ifndef COMMON_COMMAND_H
+#define COMMON_COMMAND_H
+
+#include "common/status.h"
+
+#include <argp.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+void command_begin(const char *program);
+
+/* -q: notes and progress are not shown. */
+void command_set_quiet(bool quiet);
+
+/* A line on stderr, unless quiet. */
+void command_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* "PROGRAM: text" on stderr; returns the exit code that belongs to err->status. */
+int command_fail(const struct error *err);
+
+/* Flushes stdout; returns 0, or 1 with a message when it could not be written (a full disk, a closed pipe). */
+int command_end(void);
+
+/* The number in an option's argument, within least .. most (both allowed); else argp's usage error: exit 2. */
+double command_number(struct argp_state *state, const char *option, const char *argument, double least, double most);
+long command_whole(struct argp_state *state, const char *option, const char *argument, long least, long most);
+
+/* A number that fills its whole text ("1e-3", not "1e-3x", not ""). nan and inf are refused. */
+bool number_parse(const char *text, double *value);
+
+/* A bar with rate and time left on stderr, at most ten times a second, and only where stderr is a terminal. */
+void progress_begin(const char *what, const char *unit, double total);
+void progress_update(double done);
+void progress_end(void);
+
+#endif

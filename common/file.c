@@ -1,0 +1,204 @@
+#include "common/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+struct file_out {
+    FILE *stream;
+    char *target;    /* the file to be replaced, links resolved */
+    char *temporary; /* NULL where the target is written in place */
+};
+
+static enum status read_stream(FILE *stream, const char *path, struct bytes *out, struct error *err)
+{
+    size_t size = 0, capacity = 1 << 16;
+    struct stat info;
+    if (!fstat(fileno(stream), &info) && S_ISREG(info.st_mode) && info.st_size > 0)
+        capacity = (size_t)info.st_size + 2; /* one to meet the end with, one for the NUL */
+    unsigned char *data = malloc(capacity);
+    while (data) {
+        size_t got = fread(data + size, 1, capacity - 1 - size, stream);
+        size += got;
+        if (got == 0 || size < capacity - 1)
+            break;
+        unsigned char *larger = capacity <= SIZE_MAX / 2 ? realloc(data, 2 * capacity) : NULL;
+        if (!larger)
+            free(data);
+        data = larger;
+        capacity *= 2;
+    }
+    if (!data)
+        return error_no_memory(err, path);
+    if (ferror(stream)) {
+        free(data);
+        return error_set_errno(err, path, "read");
+    }
+    data[size] = '\0';
+    *out = (struct bytes){data, size};
+    return STATUS_OK;
+}
+
+enum status file_read(const char *path, struct bytes *out, struct error *err)
+{
+    FILE *stream = fopen(path, "rbe");
+    if (!stream)
+        return error_set_errno(err, path, "open");
+    enum status status = read_stream(stream, path, out, err);
+    fclose(stream);
+    return status;
+}
+
+void bytes_clear(struct bytes *bytes)
+{
+    free(bytes->data);
+    *bytes = (struct bytes){0};
+}
+
+/* The permissions of the new file: those of the old one, or what the user's mask leaves. */
+static mode_t new_file_mode(const struct stat *old, bool exists)
+{
+    if (exists)
+        return old->st_mode & 07777;
+    mode_t mask = umask(0);
+    umask(mask);
+    return 0666 & ~mask;
+}
+
+static enum status open_temporary(struct file_out *out, mode_t mode, struct error *err)
+{
+    size_t length = strlen(out->target);
+    out->temporary = malloc(length + sizeof ".XXXXXX");
+    if (!out->temporary)
+        return error_no_memory(err, out->target);
+    memcpy(out->temporary, out->target, length);
+    memcpy(out->temporary + length, ".XXXXXX", sizeof ".XXXXXX");
+    int descriptor = mkostemp(out->temporary, O_CLOEXEC);
+    if (descriptor < 0) {
+        free(out->temporary);
+        out->temporary = NULL;
+        return error_set_errno(err, out->target, "create");
+    }
+    fchmod(descriptor, mode);
+    out->stream = fdopen(descriptor, "wb");
+    if (!out->stream) {
+        error_set_errno(err, out->target, "create");
+        close(descriptor);
+        return STATUS_FILE;
+    }
+    return STATUS_OK;
+}
+
+enum status file_out_open(const char *path, struct file_out **result, struct error *err)
+{
+    struct file_out *out = calloc(1, sizeof *out);
+    if (!out)
+        return error_no_memory(err, path);
+    struct stat old;
+    bool exists = !stat(path, &old);
+    bool replaced = !exists || S_ISREG(old.st_mode); /* a pipe's resolved name leads nowhere */
+    out->target = exists && replaced ? realpath(path, NULL) : strdup(path);
+    enum status status = STATUS_OK;
+    if (exists && S_ISDIR(old.st_mode)) {
+        status = error_set(err, STATUS_FILE, "%s: is a folder; give the name of a file in it", path);
+    } else if (!out->target) {
+        status = error_no_memory(err, path);
+    } else if (!replaced) {
+        out->stream = fopen(path, "wbe");
+        if (!out->stream)
+            status = error_set_errno(err, path, "open");
+    } else {
+        status = open_temporary(out, new_file_mode(&old, exists), err);
+    }
+    if (status) {
+        file_out_abandon(out);
+        return status;
+    }
+    *result = out;
+    return STATUS_OK;
+}
+
+FILE *file_out_stream(struct file_out *out)
+{
+    return out->stream;
+}
+
+/* Makes the renamed entry durable. A folder that cannot be synced (some file systems) is no failure. */
+static void sync_folder_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    char *folder = !slash ? strdup(".") : strndup(path, slash == path ? 1 : (size_t)(slash - path));
+    int descriptor = folder ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    if (descriptor >= 0) {
+        fsync(descriptor);
+        close(descriptor);
+    }
+    free(folder);
+}
+
+enum status file_out_commit(struct file_out *out, struct error *err)
+{
+    enum status status = STATUS_OK;
+    bool wrote = !ferror(out->stream) && !fflush(out->stream);
+    if (wrote && out->temporary)
+        wrote = !fsync(fileno(out->stream));
+    if (!wrote)
+        status = error_set_errno(err, out->target, "write");
+    FILE *stream = out->stream;
+    out->stream = NULL;
+    if (fclose(stream) && !status)
+        status = error_set_errno(err, out->target, "write");
+    if (!status && out->temporary) {
+        if (rename(out->temporary, out->target)) {
+            status = error_set_errno(err, out->target, "replace");
+        } else {
+            free(out->temporary);
+            out->temporary = NULL;
+            sync_folder_of(out->target);
+        }
+    }
+    file_out_abandon(out);
+    return status;
+}
+
+void file_out_abandon(struct file_out *out)
+{
+    if (!out)
+        return;
+    if (out->stream)
+        fclose(out->stream);
+    if (out->temporary)
+        unlink(out->temporary);
+    free(out->temporary);
+    free(out->target);
+    free(out);
+}
+
+enum status file_make_folder(const char *path, struct error *err)
+{
+    struct stat info;
+    if (!mkdir(path, 0777))
+        return STATUS_OK;
+    if (errno == EEXIST && !stat(path, &info) && S_ISDIR(info.st_mode))
+        return STATUS_OK;
+    if (errno == EEXIST)
+        return error_set(err, STATUS_FILE, "%s: is a file; give the name of a folder", path);
+    return error_set_errno(err, path, "make the folder");
+}
+
+bool file_same(const char *a, const char *b)
+{
+    struct stat one, other;
+    return !stat(a, &one) && !stat(b, &other) && one.st_dev == other.st_dev && one.st_ino == other.st_ino;
+}
+
+bool file_has_extension(const char *path, const char *extension)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && !strcasecmp(dot + 1, extension);
+}

@@ -1,0 +1,104 @@
+/*
+ * The octree that holds a sculpture: the unit cube [0,1]^3, halved along every axis down to cells of side
+ * 2^-depth. A node is a leaf of one material (0 is empty) or has eight children; eight equal leaves are always
+ * merged, so two octrees hold the same sculpture exactly when their trees are equal.
+ *
+ * Nodes are 32-bit words, children lie eight together in one block, and there are no pointers: a copy is a
+ * memcpy and a leaf costs 4 to 5 bytes.
+ *
+ *     struct octree tree = {0};
+ *     if (octree_init(&tree, 6, 1, err)) ...                    a full cube of 64 cells a side
+ *     if (octree_apply(&tree, sphere_covers, &s, 0, err)) ...   empty what the sphere covers
+ *     octree_save(&tree, "shape.oct", err);
+ *     octree_clear(&tree);
+ *
+ * Cells are numbered 0 .. 2^depth - 1 along x (right), y (up) and z (towards the viewer).
+ */
+#ifndef COMMON_OCTREE_H
+#define COMMON_OCTREE_H
+
+#include "common/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum {
+    OCTREE_DEPTH_MAX = 10,     /* 1024 cells a side */
+    OCTREE_MATERIALS = 256,    /* 0 is empty; 1 is what a new cube is made of */
+    OCTREE_FORMAT_VERSION = 1, /* of .oct files */
+};
+
+/* A node: below OCTREE_SPLIT the material of a leaf, else OCTREE_SPLIT + the number of its block of children. */
+typedef uint32_t octree_node;
+#define OCTREE_SPLIT 0x80000000u
+
+struct octree {
+    octree_node root;
+    unsigned depth;      /* 0 .. OCTREE_DEPTH_MAX */
+    octree_node *blocks; /* [8 * block_capacity]; child x + 2 y + 4 z of block b is blocks[8 b + x + 2 y + 4 z] */
+    uint32_t block_count, block_capacity; /* blocks ever used, room */
+    uint32_t free_block, free_count;      /* first of the list of freed blocks (linked through child 0), its length */
+    float coefficient[OCTREE_MATERIALS];  /* b_k of the field of each material; 1 unless a sculpture says otherwise */
+};
+
+/* A cube of one material. Errors: STATUS_RANGE for a depth above OCTREE_DEPTH_MAX. */
+enum status octree_init(struct octree *tree, unsigned depth, unsigned material, struct error *err);
+void octree_clear(struct octree *tree);
+enum status octree_copy(struct octree *to, const struct octree *from, struct error *err);
+
+/* True when depth, cells and the coefficients of the materials in use are the same. */
+bool octree_equal(const struct octree *a, const struct octree *b);
+
+/* The material of one cell; 0 outside the cube. */
+unsigned octree_at(const struct octree *tree, int x, int y, int z);
+
+/* How a shape covers a box. */
+enum octree_cover {
+    OCTREE_OUTSIDE, /* not at all */
+    OCTREE_INSIDE,  /* wholly */
+    OCTREE_CROSSES, /* in part, or not known: look at the children */
+};
+
+/* Says how a shape covers the cube with its lower corner at `corner` and this side, both in units of the cube.
+ * For a cell that can be split no further `cell` is true, and the answer is OCTREE_INSIDE or OCTREE_OUTSIDE by
+ * whether the cell's centre belongs to the shape. */
+typedef enum octree_cover octree_shape(const void *shape, const double corner[3], double side, bool cell);
+
+/* Makes what the shape covers of this material (0 chips it away), splitting where the shape cuts a node and
+ * merging where eight children agree. Returns STATUS_NO_MEMORY, then with the tree whole but the shape partly
+ * applied, or STATUS_OK. */
+enum status octree_apply(struct octree *tree, octree_shape *covers, const void *shape, unsigned material,
+                         struct error *err);
+
+/* Sets one cell; the cell must lie in the cube. */
+enum status octree_set(struct octree *tree, int x, int y, int z, unsigned material, struct error *err);
+
+/* A leaf, as a visitor meets it: its first cell, its side in cells, its material. */
+struct octree_leaf {
+    int x, y, z, side;
+    unsigned material;
+};
+
+/* Calls visit for each leaf that is not empty and meets the cells low .. high (both included), in Morton order;
+ * visit returns false to end the walk. octree_visit_all visits all such leaves. */
+typedef bool octree_visitor(void *context, const struct octree_leaf *leaf);
+void octree_visit(const struct octree *tree, const int low[3], const int high[3], octree_visitor *visit,
+                  void *context);
+void octree_visit_all(const struct octree *tree, octree_visitor *visit, void *context);
+
+struct octree_info {
+    size_t leaves, full_leaves, nodes; /* all leaves, those not empty, leaves and split nodes together */
+    uint64_t cells;                    /* finest cells that are not empty */
+    uint64_t exposed_faces;            /* faces of those cells that border on an empty cell or on the outside */
+    int low[3], high[3];               /* bounds of the cells that are not empty; high < low when there is none */
+    int smallest_side;                 /* side of the smallest leaf that is not empty, in cells; 0: there is none */
+    size_t bytes;                      /* of memory */
+};
+struct octree_info octree_measure(const struct octree *tree);
+
+/* .oct files: see octree_io.c for the layout. A load that fails leaves *tree as it was. */
+enum status octree_load(const char *path, struct octree *tree, struct error *err);
+enum status octree_save(const struct octree *tree, const char *path, struct error *err);
+
+#endif

@@ -1,0 +1,126 @@
+/* Output files are complete or not there, and the old one survives. */
+#include "check.h"
+#include "common/file.h"
+
+#include <dirent.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static char folder[] = "/tmp/balloon-file-XXXXXX";
+
+static int enter_folder(void **state)
+{
+    (void)state;
+    return !mkdtemp(folder) || chdir(folder);
+}
+
+static int leave_folder(void **state)
+{
+    (void)state;
+    DIR *entries = opendir(".");
+    for (struct dirent *entry; (entry = readdir(entries));)
+        unlink(entry->d_name);
+    closedir(entries);
+    return rmdir(folder);
+}
+
+static int entries_here(void)
+{
+    int count = 0;
+    DIR *entries = opendir(".");
+    for (struct dirent *entry; (entry = readdir(entries));)
+        count += entry->d_name[0] != '.';
+    closedir(entries);
+    return count;
+}
+
+static void write_text(const char *path, const char *text)
+{
+    struct error err = {0};
+    struct file_out *out;
+    assert_ok(file_out_open(path, &out, &err), &err);
+    fputs(text, file_out_stream(out));
+    assert_ok(file_out_commit(out, &err), &err);
+}
+
+static void assert_contents(const char *path, const char *text)
+{
+    struct error err = {0};
+    struct bytes bytes = {0};
+    assert_ok(file_read(path, &bytes, &err), &err);
+    assert_string_equal((const char *)bytes.data, text);
+    assert_int_equal(bytes.size, strlen(text));
+    bytes_clear(&bytes);
+}
+
+static void a_committed_file_replaces_the_old_one(void **state)
+{
+    (void)state;
+    write_text("a", "old");
+    chmod("a", 0640);
+    write_text("a", "new and longer");
+    assert_contents("a", "new and longer");
+    struct stat info;
+    stat("a", &info);
+    assert_int_equal(info.st_mode & 07777, 0640);
+    assert_int_equal(entries_here(), 1);
+}
+
+static void an_abandoned_file_leaves_the_old_one_and_nothing_else(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct file_out *out;
+    write_text("a", "old");
+    assert_ok(file_out_open("a", &out, &err), &err);
+    fputs("half", file_out_stream(out));
+    file_out_abandon(out);
+    assert_contents("a", "old");
+    assert_int_equal(entries_here(), 1);
+}
+
+static void a_link_is_followed_not_replaced(void **state)
+{
+    (void)state;
+    write_text("a", "old");
+    assert_int_equal(symlink("a", "link"), 0);
+    write_text("link", "through the link");
+    assert_contents("a", "through the link");
+    struct stat info;
+    lstat("link", &info);
+    assert_true(S_ISLNK(info.st_mode));
+}
+
+static void a_full_disk_is_reported(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct file_out *out;
+    assert_ok(file_out_open("/dev/full", &out, &err), &err);
+    fputs("anything", file_out_stream(out));
+    assert_refused(file_out_commit(out, &err), STATUS_FILE, "/dev/full: cannot write: No space left", &err);
+}
+
+static void missing_folders_and_folders_are_refused_by_name(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct file_out *out;
+    assert_refused(file_out_open("no/such/a", &out, &err), STATUS_FILE, "no/such/a: cannot create", &err);
+    assert_refused(file_out_open(".", &out, &err), STATUS_FILE, ".: is a folder", &err);
+    struct bytes bytes;
+    assert_refused(file_read("nothing", &bytes, &err), STATUS_FILE, "nothing: cannot open", &err);
+    assert_refused(file_read(".", &bytes, &err), STATUS_FILE, ".: cannot read", &err);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_committed_file_replaces_the_old_one),
+        cmocka_unit_test(an_abandoned_file_leaves_the_old_one_and_nothing_else),
+        cmocka_unit_test(a_link_is_followed_not_replaced),
+        cmocka_unit_test(a_full_disk_is_reported),
+        cmocka_unit_test(missing_folders_and_folders_are_refused_by_name),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
