@@ -1,5 +1,6 @@
 /*
- * Growable arrays: any struct with the members `items`, `count` and `capacity` is one, and `{0}` is an empty one.
+ * Growable arrays: any struct with the members `items`, `count` and `capacity` is one, and `{0}` is an empty
+ * one.
  *
  *     struct { uint32_t *items; size_t count, capacity; } list = {0};
  *     if (!ARRAY_RESERVE(&list, 1))
@@ -14,8 +15,8 @@
 #include <stddef.h>
 
 /* True when `extra` more items fit behind the first a->count. On false the array is as it was. */
-#define ARRAY_RESERVE(a, extra)                \
-    ((extra) <= (a)->capacity - (a)->count ||  \
+#define ARRAY_RESERVE(a, extra)               \
+    ((extra) <= (a)->capacity - (a)->count || \
      array_grow(&(a)->items, (a)->count, (extra), sizeof *(a)->items, &(a)->capacity))
 
 /* Makes room for count + extra items of item_size bytes behind the pointer that `items_address` points to, at

@@ -67,7 +67,8 @@ bool number_parse(const char *text, double *value)
     return true;
 }
 
-double command_number(struct argp_state *state, const char *option, const char *argument, double least, double most)
+double command_number(struct argp_state *state, const char *option, const char *argument, double least,
+                      double most)
 {
     double value = 0;
     if (!number_parse(argument, &value) || !(value >= least && value <= most))

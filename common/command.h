@@ -26,17 +26,21 @@ void command_note(const char *format, ...) __attribute__((format(printf, 1, 2)))
 /* "PROGRAM: text" on stderr; returns the exit code that belongs to err->status. */
 int command_fail(const struct error *err);
 
-/* Flushes stdout; returns 0, or 1 with a message when it could not be written (a full disk, a closed pipe). */
+/* Flushes stdout; returns 0, or 1 with a message when it could not be written (a full disk, a closed pipe).
+ */
 int command_end(void);
 
-/* The number in an option's argument, within least .. most (both allowed); else argp's usage error: exit 2. */
-double command_number(struct argp_state *state, const char *option, const char *argument, double least, double most);
+/* The number in an option's argument, within least .. most (both allowed); else argp's usage error: exit 2.
+ */
+double command_number(struct argp_state *state, const char *option, const char *argument, double least,
+                      double most);
 long command_whole(struct argp_state *state, const char *option, const char *argument, long least, long most);
 
 /* A number that fills its whole text ("1e-3", not "1e-3x", not ""). nan and inf are refused. */
 bool number_parse(const char *text, double *value);
 
-/* A bar with rate and time left on stderr, at most ten times a second, and only where stderr is a terminal. */
+/* A bar with rate and time left on stderr, at most ten times a second, and only where stderr is a terminal.
+ */
 void progress_begin(const char *what, const char *unit, double total);
 void progress_update(double done);
 void progress_end(void);

@@ -7,8 +7,8 @@
  *     fprintf(file_out_stream(out), ...);      ferror() need not be asked: commit does
  *     return file_out_commit(out, err);        or file_out_abandon(out)
  *
- * The bytes go to a temporary file in the same folder; commit flushes, syncs and renames it over the target, so
- * the file that was there stays whole until the new one is. A target that is no regular file (/dev/stdout,
+ * The bytes go to a temporary file in the same folder; commit flushes, syncs and renames it over the target,
+ * so the file that was there stays whole until the new one is. A target that is no regular file (/dev/stdout,
  * /dev/full, a pipe) is written in place. A symbolic link is followed, not replaced.
  */
 #ifndef COMMON_FILE_H
@@ -32,21 +32,22 @@ void bytes_clear(struct bytes *bytes);
 
 struct file_out;
 
-/* Begins to replace path. Errors: STATUS_FILE (the folder is missing or cannot be written), STATUS_NO_MEMORY. */
+/* Begins to replace path. Errors: STATUS_FILE (the folder is missing or cannot be written), STATUS_NO_MEMORY.
+ */
 enum status file_out_open(const char *path, struct file_out **out, struct error *err);
 
 /* The stream to write to; it belongs to `out`. */
 FILE *file_out_stream(struct file_out *out);
 
-/* Ends the replacement and frees `out`, whatever it returns. On failure nothing is left behind and the old file
- * is untouched. Errors: STATUS_FILE with the first write, flush, sync or rename that failed. */
+/* Ends the replacement and frees `out`, whatever it returns. On failure nothing is left behind and the old
+ * file is untouched. Errors: STATUS_FILE with the first write, flush, sync or rename that failed. */
 enum status file_out_commit(struct file_out *out, struct error *err);
 
 /* Throws away what was written and frees `out`. NULL is fine. */
 void file_out_abandon(struct file_out *out);
 
-/* Makes the folder `path` if it is not there (its parent must be). Errors: STATUS_FILE, also where path is there
- * but is no folder. */
+/* Makes the folder `path` if it is not there (its parent must be). Errors: STATUS_FILE, also where path is
+ * there but is no folder. */
 enum status file_make_folder(const char *path, struct error *err);
 
 /* True when both names lead to the same existing file. */

@@ -1,7 +1,7 @@
 /*
  * The octree that holds a sculpture: the unit cube [0,1]^3, halved along every axis down to cells of side
- * 2^-depth. A node is a leaf of one material (0 is empty) or has eight children; eight equal leaves are always
- * merged, so two octrees hold the same sculpture exactly when their trees are equal.
+ * 2^-depth. A node is a leaf of one material (0 is empty) or has eight children; eight equal leaves are
+ * always merged, so two octrees hold the same sculpture exactly when their trees are equal.
  *
  * Nodes are 32-bit words, children lie eight together in one block, and there are no pointers: a copy is a
  * memcpy and a leaf costs 4 to 5 bytes.
@@ -29,17 +29,21 @@ enum {
     OCTREE_FORMAT_VERSION = 1, /* of .oct files */
 };
 
-/* A node: below OCTREE_SPLIT the material of a leaf, else OCTREE_SPLIT + the number of its block of children. */
+/* A node: below OCTREE_SPLIT the material of a leaf, else OCTREE_SPLIT + the number of its block of children.
+ */
 typedef uint32_t octree_node;
 #define OCTREE_SPLIT 0x80000000u
 
 struct octree {
     octree_node root;
-    unsigned depth;      /* 0 .. OCTREE_DEPTH_MAX */
-    octree_node *blocks; /* [8 * block_capacity]; child x + 2 y + 4 z of block b is blocks[8 b + x + 2 y + 4 z] */
+    unsigned depth; /* 0 .. OCTREE_DEPTH_MAX */
+    octree_node
+        *blocks; /* [8 * block_capacity]; child x + 2 y + 4 z of block b is blocks[8 b + x + 2 y + 4 z] */
     uint32_t block_count, block_capacity; /* blocks ever used, room */
-    uint32_t free_block, free_count;      /* first of the list of freed blocks (linked through child 0), its length */
-    float coefficient[OCTREE_MATERIALS];  /* b_k of the field of each material; 1 unless a sculpture says otherwise */
+    uint32_t free_block,
+        free_count; /* first of the list of freed blocks (linked through child 0), its length */
+    float coefficient[OCTREE_MATERIALS]; /* b_k of the field of each material; 1 unless a sculpture says
+                                            otherwise */
 };
 
 /* A cube of one material. Errors: STATUS_RANGE for a depth above OCTREE_DEPTH_MAX. */
@@ -60,9 +64,9 @@ enum octree_cover {
     OCTREE_CROSSES, /* in part, or not known: look at the children */
 };
 
-/* Says how a shape covers the cube with its lower corner at `corner` and this side, both in units of the cube.
- * For a cell that can be split no further `cell` is true, and the answer is OCTREE_INSIDE or OCTREE_OUTSIDE by
- * whether the cell's centre belongs to the shape. */
+/* Says how a shape covers the cube with its lower corner at `corner` and this side, both in units of the
+ * cube. For a cell that can be split no further `cell` is true, and the answer is OCTREE_INSIDE or
+ * OCTREE_OUTSIDE by whether the cell's centre belongs to the shape. */
 typedef enum octree_cover octree_shape(const void *shape, const double corner[3], double side, bool cell);
 
 /* Makes what the shape covers of this material (0 chips it away), splitting where the shape cuts a node and
@@ -80,8 +84,8 @@ struct octree_leaf {
     unsigned material;
 };
 
-/* Calls visit for each leaf that is not empty and meets the cells low .. high (both included), in Morton order;
- * visit returns false to end the walk. octree_visit_all visits all such leaves. */
+/* Calls visit for each leaf that is not empty and meets the cells low .. high (both included), in Morton
+ * order; visit returns false to end the walk. octree_visit_all visits all such leaves. */
 typedef bool octree_visitor(void *context, const struct octree_leaf *leaf);
 void octree_visit(const struct octree *tree, const int low[3], const int high[3], octree_visitor *visit,
                   void *context);
@@ -90,10 +94,10 @@ void octree_visit_all(const struct octree *tree, octree_visitor *visit, void *co
 struct octree_info {
     size_t leaves, full_leaves, nodes; /* all leaves, those not empty, leaves and split nodes together */
     uint64_t cells;                    /* finest cells that are not empty */
-    uint64_t exposed_faces;            /* faces of those cells that border on an empty cell or on the outside */
-    int low[3], high[3];               /* bounds of the cells that are not empty; high < low when there is none */
-    int smallest_side;                 /* side of the smallest leaf that is not empty, in cells; 0: there is none */
-    size_t bytes;                      /* of memory */
+    uint64_t exposed_faces; /* faces of those cells that border on an empty cell or on the outside */
+    int low[3], high[3];    /* bounds of the cells that are not empty; high < low when there is none */
+    int smallest_side;      /* side of the smallest leaf that is not empty, in cells; 0: there is none */
+    size_t bytes;           /* of memory */
 };
 struct octree_info octree_measure(const struct octree *tree);
 

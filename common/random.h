@@ -1,5 +1,6 @@
 /* A small seeded generator (SplitMix64: Steele, Lea, Flood, "Fast splittable pseudorandom number generators",
- * OOPSLA 2014). The state is one word, so that it can be kept in a checkpoint; same seed, same numbers, anywhere. */
+ * OOPSLA 2014). The state is one word, so that it can be kept in a checkpoint; same seed, same numbers,
+ * anywhere. */
 #ifndef COMMON_RANDOM_H
 #define COMMON_RANDOM_H
 

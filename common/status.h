@@ -12,7 +12,8 @@
 #ifndef COMMON_STATUS_H
 #define COMMON_STATUS_H
 
-/* name, what it means in general (err->text says it in particular), exit code of a program that ends with it */
+/* name, what it means in general (err->text says it in particular), exit code of a program that ends with it
+ */
 #define STATUS_LIST(X)                                                   \
     X(STATUS_OK, "done", 0)                                              \
     X(STATUS_NO_MEMORY, "not enough memory", 1)                          \
