@@ -24,16 +24,15 @@
 
 struct mesh {
     uint32_t point_count, edge_count, triangle_count;
-    double (*position)[3];   /* [point_count] */
-    double (*normal)[3];     /* [point_count] outward, unit length; or NULL */
-    uint32_t (*triangle)[3]; /* [triangle_count] points, counter-clockwise seen from outside */
-    uint32_t (*edge)[2];     /* [edge_count] points, the smaller first; NULL until mesh_connect() */
-    uint32_t (
-        *triangle_edge)[3]; /* [triangle_count] edge k joins points k and k + 1; NULL until mesh_connect() */
+    double (*position)[3];        /* [point_count] */
+    double (*normal)[3];          /* [point_count] outward, unit length; or NULL */
+    uint32_t (*triangle)[3];      /* [triangle_count] points, counter-clockwise seen from outside */
+    uint32_t (*edge)[2];          /* [edge_count] points, the smaller first; NULL until mesh_connect() */
+    uint32_t (*triangle_edge)[3]; /* [triangle_count] edge k joins corners k and k + 1; NULL until then */
 };
 
-/* Allocates room for that many points and triangles, with normals or without; counts are set, values are not.
- */
+/* Allocates room for that many points and triangles, with normals or without; counts are set, values are
+ * not.
 enum status mesh_init(struct mesh *mesh, size_t point_count, size_t triangle_count, bool normals,
                       struct error *err);
 void mesh_clear(struct mesh *mesh);
