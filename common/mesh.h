@@ -32,7 +32,7 @@ struct mesh {
 };
 
 /* Allocates room for that many points and triangles, with normals or without; counts are set, values are
- * not.
+ * not. */
 enum status mesh_init(struct mesh *mesh, size_t point_count, size_t triangle_count, bool normals,
                       struct error *err);
 void mesh_clear(struct mesh *mesh);
