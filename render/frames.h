@@ -1,0 +1,46 @@
+/*
+ * Where a run's pictures go: numbered PNG files, a movie, a contact sheet, each of them if asked for.
+ *
+ *     struct frames_options options = {.folder = "frames", .movie = "fox.mp4", .rate = 30};
+ *     struct frames *frames;
+ *     if (frames_open(&options, &frames, err)) ...
+ *     if (frames_add(frames, &image, time, err)) ...       for each picture, in order
+ *     if (frames_close(frames, err)) ...                   always, also after frames_add() failed
+ *
+ * Pictures are copied in; PNGs are encoded and the movie is fed by threads of its own, through a queue that
+ * holds a few pictures and then makes frames_add() wait. What goes wrong there comes back from the next call.
+ */
+#ifndef RENDER_FRAMES_H
+#define RENDER_FRAMES_H
+
+#include "common/status.h"
+#include "render/image.h"
+
+struct frames_options {
+    const char *folder; /* frame_0000.png, frame_0001.png, ... are written here; made if missing; or NULL */
+    const char *movie;  /* .mp4, .webm or .gif, through the program ffmpeg; or NULL */
+    const char *sheet;  /* PNG of twelve moments, evenly spaced in how much the picture changes; or NULL */
+    double rate;        /* pictures a second in the movie; 0: 30 */
+    int workers;        /* threads that encode PNGs; 0: one for each processor */
+    const struct image_text
+        *texts; /* [text_count] for every PNG, borrowed until frames_close(); "Time" is added */
+    size_t text_count;
+};
+
+struct frames;
+
+/* Begins. Errors: STATUS_FILE (the folder cannot be made, is a file or cannot be written), STATUS_USAGE (the
+ * movie's extension), STATUS_RESOURCE (ffmpeg is not installed), STATUS_NO_MEMORY. Nothing is left behind. */
+enum status frames_open(const struct frames_options *options, struct frames **frames, struct error *err);
+
+/* Adds a copy of the next picture, shown at `time` (seconds, for the sheet's labels and the PNGs' text). All
+ * pictures have the first one's size (else STATUS_RANGE). Errors are those of writing; after one, nothing
+ * more is written. */
+enum status frames_add(struct frames *frames, const struct image *image, double time, struct error *err);
+
+/* Waits for what is queued, ends the movie, writes the sheet and frees `frames`. Returns the first error of
+ * the whole run, also when frames_add() returned it before. PNGs that were complete stay; a movie or sheet
+ * that failed is not there, and an older file of its name is untouched. */
+enum status frames_close(struct frames *frames, struct error *err);
+
+#endif

@@ -1,0 +1,91 @@
+/*
+ * Draws meshes as balloon skin, in one picture or as a stereo pair, without a display.
+ *
+ *     struct render_view view = {.width = 1280, .height = 480, .stereo = RENDER_PARALLEL, .sorted = true};
+ *     const double from[3] = {0.4, 0.3, 1};
+ *     if (render_fit_camera(&view, lower, upper, from, 0.1, err)) ...
+ *     struct render *render;
+ *     if (render_open(view.width, view.height, &render, err)) ...
+ *     struct image image = {0};
+ *     struct render_skin skin = {.mesh = &mesh, .colour = {0.75f, 0.03f, 0.04f}};
+ *     if (render_draw(render, &view, &skin, 1, &image, err)) ...       once a frame
+ *     image_clear(&image);
+ *     render_close(render);
+ *
+ * A struct render belongs to the thread that opened it. Colours are linear light, pictures are sRGB. Pixels
+ * may differ by a unit or two of 255 between machines.
+ */
+#ifndef RENDER_RENDER_H
+#define RENDER_RENDER_H
+
+#include "common/mesh.h"
+#include "common/status.h"
+#include "render/image.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Where from and how wide; lengths in the scene's units. */
+struct render_camera {
+    double eye[3], target[3], up[3];
+    double field_of_view_deg; /* vertical, of one eye's picture; above 0, below 180 */
+    double eye_distance;      /* between the two eyes, in stereo; 0: both the same */
+    double screen_distance;   /* from the eyes to the plane where both pictures agree; in stereo above 0 */
+};
+
+/* Two pictures side by side, each half as wide as the whole. */
+enum render_stereo {
+    RENDER_MONO,
+    RENDER_PARALLEL, /* the left eye's on the left: for a viewer or mirror glasses, or parallel eyes */
+    RENDER_CROSSED,  /* the left eye's on the right: for crossed eyes */
+};
+
+struct render_view {
+    int width, height; /* of the whole picture, 1 .. IMAGE_SIDE_MAX; the width even in stereo */
+    struct render_camera camera;
+    enum render_stereo stereo;
+    bool sorted; /* translucent triangles are drawn back to front, by their centroids; else as they come */
+    bool smooth_edges; /* outlines are drawn with four samples a pixel */
+    bool floor;        /* a soft shadow lies on the plane y = floor_height */
+    double floor_height;
+};
+
+/* A mesh and how it looks. Everything is borrowed for the call. */
+struct render_skin {
+    const struct mesh *mesh;     /* position, triangle, and normal: NULL for flat facets */
+    const unsigned char *active; /* [triangle_count] 0: not drawn; NULL: all are */
+    const float *opacity;        /* [triangle_count] 0 .. 1 when seen straight on; NULL: opaque */
+    const float *shininess; /* [triangle_count] exponent of the highlight, 0: none, 100: gloss; NULL: 0 */
+    float colour[3];        /* red, green, blue, 0 .. 1, linear light */
+    bool facets;            /* each triangle keeps its own opacity and shininess, as in the paper; else
+                                    they are averaged at the points and drawn smoothly */
+};
+
+struct render;
+
+/* Opens the off-screen OpenGL context and makes room for pictures of this size; others are possible later.
+ * Errors: STATUS_RANGE (size), STATUS_RESOURCE (no OpenGL 3.3), STATUS_NO_MEMORY. */
+enum status render_open(int width, int height, struct render **render, struct error *err);
+
+/* Draws all skins into *out, which is resized to the view. A triangle further than 1e9 times the distance from
+ * eye to target is not drawn; where a normal is zero or not finite the facet's own is taken; opacity and
+ * shininess outside their range are clamped. Errors: STATUS_RANGE for a size or camera that is not possible,
+ * and for a drawn triangle with a corner that is out of range or at no finite place, or whose opacity or
+ * shininess is nan; the message names it. STATUS_NO_MEMORY. */
+enum status render_draw(struct render *render, const struct render_view *view,
+                        const struct render_skin *skins, size_t skin_count, struct image *out,
+                        struct error *err);
+
+/* NULL is fine. */
+void render_close(struct render *render);
+
+/* Sets view->camera so that the box lower .. upper fits the picture (view's width, height and stereo are
+ * read) with `margin`, a fraction of the half picture, left free around it: 0 for none, below 1. `direction`
+ * points from the box to the eye and has any length; y is up unless direction is along it. In stereo the
+ * screen plane passes through the middle of the box and the eyes are 1/30 of its distance apart, the usual
+ * rule for comfortable pairs. Errors: STATUS_RANGE for bounds that are not finite or empty (lower > upper),
+ * a direction of no length, a margin or size out of range; then the camera is as it was. */
+enum status render_fit_camera(struct render_view *view, const double lower[3], const double upper[3],
+                              const double direction[3], double margin, struct error *err);
+
+#endif
