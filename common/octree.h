@@ -29,6 +29,9 @@ enum {
     OCTREE_FORMAT_VERSION = 1, /* of .oct files */
 };
 
+/* Coefficients b_k are finite and not beyond this, either way. */
+#define OCTREE_COEFFICIENT_MAX 1000.0
+
 /* A node: below OCTREE_SPLIT the material of a leaf, else OCTREE_SPLIT + the number of its block of children.
  */
 typedef uint32_t octree_node;
@@ -49,7 +52,14 @@ struct octree {
 /* A cube of one material. Errors: STATUS_RANGE for a depth above OCTREE_DEPTH_MAX. */
 enum status octree_init(struct octree *tree, unsigned depth, unsigned material, struct error *err);
 void octree_clear(struct octree *tree);
+/* *to must be valid ({0} is); it is replaced, or left as it was when memory is not enough. */
 enum status octree_copy(struct octree *to, const struct octree *from, struct error *err);
+
+/* All leaves, empty ones too: each split turns one leaf into eight. */
+static inline size_t octree_leaf_count(const struct octree *tree)
+{
+    return 1 + 7 * (size_t)(tree->block_count - tree->free_count);
+}
 
 /* True when depth, cells and the coefficients of the materials in use are the same. */
 bool octree_equal(const struct octree *a, const struct octree *b);
@@ -91,6 +101,20 @@ void octree_visit(const struct octree *tree, const int low[3], const int high[3]
                   void *context);
 void octree_visit_all(const struct octree *tree, octree_visitor *visit, void *context);
 
+/* A square where material borders on emptiness or on the outside of the cube, as large as the smaller of the
+ * two leaves that meet there. Its first lattice corner (0 .. 2^depth along each axis, in cells), its side in
+ * cells, the axis that it is square to (0 x, 1 y, 2 z), the way out along that axis (-1 or 1), the material
+ * behind it. */
+struct octree_face {
+    int corner[3], side, axis, outward;
+    unsigned material;
+};
+
+/* Calls visit for each exposed face, in an order that depends on the sculpture alone; visit returns false to
+ * end the walk. O(nodes). */
+typedef bool octree_face_visitor(void *context, const struct octree_face *face);
+void octree_visit_faces(const struct octree *tree, octree_face_visitor *visit, void *context);
+
 struct octree_info {
     size_t leaves, full_leaves, nodes; /* all leaves, those not empty, leaves and split nodes together */
     uint64_t cells;                    /* finest cells that are not empty */
@@ -101,7 +125,10 @@ struct octree_info {
 };
 struct octree_info octree_measure(const struct octree *tree);
 
-/* .oct files: see octree_io.c for the layout. A load that fails leaves *tree as it was. */
+/* .oct files: see octree_io.c for the layout. *tree must be valid ({0} is): a load replaces it, or leaves it as
+ * it was when it fails. Errors name the file and the chunk: STATUS_FILE, STATUS_INPUT (cut short, damaged,
+ * foreign, a depth or count that lies, a newer version), STATUS_NO_MEMORY. Equal sculptures with equal
+ * coefficients are saved as equal bytes. */
 enum status octree_load(const char *path, struct octree *tree, struct error *err);
 enum status octree_save(const struct octree *tree, const char *path, struct error *err);
 

@@ -1,0 +1,29 @@
+/* Inside the octree: how octree_*.c take nodes apart and keep the blocks of children. Nobody else includes
+ * this. */
+#ifndef COMMON_OCTREE_BLOCKS_H
+#define COMMON_OCTREE_BLOCKS_H
+
+#include "common/octree.h"
+
+static inline bool node_is_split(octree_node node)
+{
+    return node >= OCTREE_SPLIT;
+}
+
+/* Where the first of a split node's children lies in tree->blocks. */
+static inline size_t node_children(octree_node node)
+{
+    return 8 * (size_t)(node & ~OCTREE_SPLIT);
+}
+
+/* The node that has these children: the leaf that they agree on, or a split node over a new block, which may
+ * move tree->blocks. False when memory is not enough; then the children are still the caller's. */
+bool octree_join(struct octree *tree, const octree_node children[8], octree_node *node);
+
+/* The leaf that the children of a split node agree on (its block is then free), or the node itself. */
+octree_node octree_merge(struct octree *tree, octree_node node);
+
+/* Gives every block at and below a node back to the free list. */
+void octree_release(struct octree *tree, octree_node node);
+
+#endif
