@@ -1,0 +1,175 @@
+#include "render/draw.h"
+
+#include "render/shaders.h"
+
+#include <string.h>
+
+static enum status compile(const struct gl *gl, GLuint program, GLenum kind, const char *source,
+                           struct error *err)
+{
+    char log[512] = "";
+    GLint good = 0;
+    GLuint shader = gl->CreateShader(kind);
+    gl->ShaderSource(shader, 1, &source, NULL);
+    gl->CompileShader(shader);
+    gl->GetShaderiv(shader, GL_COMPILE_STATUS, &good);
+    gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
+    gl->AttachShader(program, shader);
+    gl->DeleteShader(shader); /* goes with the program */
+    return good ? STATUS_OK : error_set(err, STATUS_RESOURCE, "OpenGL cannot compile a shader: %s", log);
+}
+
+static enum status link_program(const struct gl *gl, const char *vertex, const char *fragment,
+                                GLuint *program, struct error *err)
+{
+    *program = gl->CreateProgram();
+    enum status status = compile(gl, *program, GL_VERTEX_SHADER, vertex, err);
+    if (!status)
+        status = compile(gl, *program, GL_FRAGMENT_SHADER, fragment, err);
+    if (status)
+        return status;
+    char log[512] = "";
+    GLint good = 0;
+    gl->LinkProgram(*program);
+    gl->GetProgramiv(*program, GL_LINK_STATUS, &good);
+    gl->GetProgramInfoLog(*program, sizeof log, NULL, log);
+    return good ? STATUS_OK : error_set(err, STATUS_RESOURCE, "OpenGL cannot link a shader: %s", log);
+}
+
+static void describe(const struct gl *gl, GLuint location, int size, GLenum type, size_t offset)
+{
+    gl->EnableVertexAttribArray(location);
+    gl->VertexAttribPointer(location, size, type, type != GL_FLOAT, sizeof(struct geometry_vertex),
+                            (const void *)offset);
+}
+
+static void describe_vertices(struct draw *draw, const struct gl *gl)
+{
+    GLuint arrays[2], buffers[2];
+    gl->GenVertexArrays(2, arrays);
+    gl->GenBuffers(2, buffers);
+    draw->arrays = arrays[0];
+    draw->nothing = arrays[1];
+    draw->vertices = buffers[0];
+    draw->indices = buffers[1];
+    gl->BindVertexArray(draw->arrays);
+    gl->BindBuffer(GL_ARRAY_BUFFER, draw->vertices);
+    gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, draw->indices);
+    describe(gl, SHADER_POSITION, 3, GL_FLOAT, offsetof(struct geometry_vertex, position));
+    describe(gl, SHADER_NORMAL, 3, GL_FLOAT, offsetof(struct geometry_vertex, normal));
+    describe(gl, SHADER_OPACITY, 1, GL_FLOAT, offsetof(struct geometry_vertex, opacity));
+    describe(gl, SHADER_SHININESS, 1, GL_FLOAT, offsetof(struct geometry_vertex, shininess));
+    describe(gl, SHADER_COLOUR, 3, GL_UNSIGNED_SHORT, offsetof(struct geometry_vertex, colour));
+}
+
+enum status draw_open(struct draw *draw, const struct gl *gl, struct error *err)
+{
+    enum status status = link_program(gl, shader_skin_vertex, shader_skin_fragment, &draw->skin, err);
+    if (!status)
+        status = link_program(gl, shader_backdrop_vertex, shader_backdrop_fragment, &draw->backdrop, err);
+    if (!status)
+        status = link_program(gl, shader_shadow_vertex, shader_shadow_fragment, &draw->shadow, err);
+    if (status) {
+        draw_close(draw, gl);
+        return status;
+    }
+    draw->skin_projection = gl->GetUniformLocation(draw->skin, "projection");
+    draw->skin_eye = gl->GetUniformLocation(draw->skin, "eye");
+    draw->shadow_projection = gl->GetUniformLocation(draw->shadow, "projection");
+    draw->shadow_corner = gl->GetUniformLocation(draw->shadow, "corner");
+    draw->shadow_left = gl->GetUniformLocation(draw->shadow, "left");
+    describe_vertices(draw, gl);
+    return STATUS_OK;
+}
+
+void draw_close(struct draw *draw, const struct gl *gl)
+{
+    const GLuint arrays[] = {draw->arrays, draw->nothing}, buffers[] = {draw->vertices, draw->indices};
+    if (draw->arrays)
+        gl->DeleteVertexArrays(2, arrays);
+    if (draw->vertices)
+        gl->DeleteBuffers(2, buffers);
+    gl->DeleteProgram(draw->skin);
+    gl->DeleteProgram(draw->backdrop);
+    gl->DeleteProgram(draw->shadow);
+    *draw = (struct draw){0};
+}
+
+static void upload(const struct draw *draw, const struct gl *gl, const struct geometry *g)
+{
+    gl->BindVertexArray(draw->arrays);
+    gl->BindBuffer(GL_ARRAY_BUFFER, draw->vertices);
+    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(g->vertices.count * sizeof *g->vertices.items),
+                   g->vertices.items, GL_STREAM_DRAW);
+    gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(g->indices.count * sizeof *g->indices.items),
+                   g->indices.items, GL_STREAM_DRAW);
+}
+
+static void draw_backdrop(const struct draw *draw, const struct gl *gl, const struct render_view *view)
+{
+    gl->Viewport(0, 0, view->width, view->height);
+    gl->Disable(GL_DEPTH_TEST);
+    gl->Disable(GL_BLEND);
+    gl->UseProgram(draw->backdrop);
+    gl->BindVertexArray(draw->nothing);
+    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+static void draw_shadow(const struct draw *draw, const struct gl *gl, const float projection[16],
+                        const struct geometry_shadow *shadow)
+{
+    gl->Disable(GL_DEPTH_TEST);
+    gl->Enable(GL_BLEND);
+    gl->BlendFunc(GL_DST_COLOR, GL_ZERO);
+    gl->UseProgram(draw->shadow);
+    gl->UniformMatrix4fv(draw->shadow_projection, 1, GL_FALSE, projection);
+    gl->Uniform3fv(draw->shadow_corner, 4, shadow->corner[0]);
+    gl->Uniform3fv(draw->shadow_left, 1, shadow->colour);
+    gl->BindVertexArray(draw->nothing);
+    gl->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+/* Opaque triangles hide by depth; translucent ones are hidden by those, and lie over one another in their
+ * order. Colours come multiplied by opacity, so that a highlight stays whole on the clearest skin. */
+static void draw_skins(const struct draw *draw, const struct gl *gl, const float projection[16],
+                       const float eye[3], const struct geometry *g)
+{
+    gl->Enable(GL_DEPTH_TEST);
+    gl->Disable(GL_BLEND);
+    gl->UseProgram(draw->skin);
+    gl->UniformMatrix4fv(draw->skin_projection, 1, GL_FALSE, projection);
+    gl->Uniform3fv(draw->skin_eye, 1, eye);
+    gl->BindVertexArray(draw->arrays);
+    if (g->opaque.count)
+        gl->DrawElements(GL_TRIANGLES, (GLsizei)(3 * g->opaque.count), GL_UNSIGNED_INT, NULL);
+    if (!g->translucent.count)
+        return;
+    gl->DepthMask(GL_FALSE);
+    gl->Enable(GL_BLEND);
+    gl->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    gl->DrawElements(GL_TRIANGLES, (GLsizei)(3 * g->translucent.count), GL_UNSIGNED_INT,
+                     (const void *)(3 * g->opaque.count * sizeof(uint32_t)));
+    gl->DepthMask(GL_TRUE);
+}
+
+void draw_frame(const struct draw *draw, const struct gl *gl, const struct render_view *view,
+                const struct geometry *geometry)
+{
+    struct camera_eye eyes[2];
+    int count = camera_eyes(view, eyes);
+    upload(draw, gl, geometry);
+    gl->Disable(GL_SCISSOR_TEST);
+    gl->Enable(GL_FRAMEBUFFER_SRGB);
+    gl->DepthMask(GL_TRUE);
+    gl->Clear(GL_DEPTH_BUFFER_BIT);
+    draw_backdrop(draw, gl, view);
+    for (int i = 0; i < count; i++) {
+        float projection[16];
+        const float eye[3] = {(float)eyes[i].offset, 0, 0};
+        camera_projection(&eyes[i], geometry->nearest, geometry->farthest, projection);
+        gl->Viewport(eyes[i].left, 0, eyes[i].width, view->height);
+        if (geometry->shadow.visible)
+            draw_shadow(draw, gl, projection, &geometry->shadow);
+        draw_skins(draw, gl, projection, eye, geometry);
+    }
+}

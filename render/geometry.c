@@ -1,0 +1,300 @@
+#include "render/geometry.h"
+
+#include "common/array.h"
+#include "common/vec3.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Corners further than this (in units of eye to target) are not drawn: the floats of a projection end there. */
+static const double limit = 1e9;
+static const double nearest_drawn = 0.004, farthest_drawn = 1e4;
+static const float opaque_from = 0.999f; /* less than half of 1/255 shows through */
+
+/* What building one skin needs to hand around. */
+struct building {
+    struct geometry *geometry;
+    const struct camera_space *space;
+    const struct render_skin *skin;
+    size_t skin_number;
+    uint32_t first_vertex; /* of the points' shared vertices */
+    bool shared;           /* points have vertices of their own: smooth normals, no facets */
+    uint16_t colour[4];
+};
+
+static float clamp(float value, float least, float most)
+{
+    return value < least ? least : value > most ? most : value;
+}
+
+static float opacity_of(const struct render_skin *skin, uint32_t t)
+{
+    return skin->opacity ? clamp(skin->opacity[t], 0, 1) : 1;
+}
+
+static float shininess_of(const struct render_skin *skin, uint32_t t)
+{
+    return skin->shininess ? clamp(skin->shininess[t], 0, 10000) : 0;
+}
+
+static bool is_drawn(const struct render_skin *skin, uint32_t t)
+{
+    return !skin->active || skin->active[t];
+}
+
+static enum status check_triangle(const struct building *b, uint32_t t, struct error *err)
+{
+    const struct render_skin *skin = b->skin;
+    const struct mesh *mesh = skin->mesh;
+    for (int k = 0; k < 3; k++) {
+        uint32_t point = mesh->triangle[t][k];
+        if (point >= mesh->point_count)
+            return error_set(err, STATUS_RANGE,
+                             "skin %zu, triangle %u has the corner %u, but there are %u points",
+                             b->skin_number, t, point, mesh->point_count);
+        const double *at = mesh->position[point];
+        if (!isfinite(at[0]) || !isfinite(at[1]) || !isfinite(at[2]))
+            return error_set(err, STATUS_RANGE, "skin %zu, point %u of triangle %u is at no finite place",
+                             b->skin_number, point, t);
+    }
+    if ((skin->opacity && isnan(skin->opacity[t])) || (skin->shininess && isnan(skin->shininess[t])))
+        return error_set(err, STATUS_RANGE,
+                         "skin %zu, triangle %u has an opacity or shininess that is no number",
+                         b->skin_number, t);
+    return STATUS_OK;
+}
+
+static enum status check_triangles(const struct building *b, struct error *err)
+{
+    enum status status = STATUS_OK;
+    for (uint32_t t = 0; t < b->skin->mesh->triangle_count && !status; t++)
+        if (is_drawn(b->skin, t))
+            status = check_triangle(b, t, err);
+    return status;
+}
+
+/* Averages the triangles' opacity and shininess at the points: sums[3 p ..] becomes opacity, shininess and
+ * the number of triangles. */
+static void average_at_points(const struct building *b)
+{
+    const struct mesh *mesh = b->skin->mesh;
+    float *sums = b->geometry->sums.items;
+    memset(sums, 0, 3 * (size_t)mesh->point_count * sizeof *sums);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        if (!is_drawn(b->skin, t))
+            continue;
+        for (int k = 0; k < 3; k++) {
+            float *sum = sums + 3 * (size_t)mesh->triangle[t][k];
+            sum[0] += opacity_of(b->skin, t);
+            sum[1] += shininess_of(b->skin, t);
+            sum[2] += 1;
+        }
+    }
+    for (size_t p = 0; p < mesh->point_count; p++) {
+        float *sum = sums + 3 * p;
+        if (sum[2] > 0) {
+            sum[0] /= sum[2];
+            sum[1] /= sum[2];
+        }
+    }
+}
+
+static void set_vertex(const struct building *b, struct geometry_vertex *vertex, uint32_t point,
+                       const double normal[3], float opacity, float shininess)
+{
+    double at[3], turned[3];
+    camera_to_space(b->space, b->skin->mesh->position[point], at);
+    camera_turn(b->space, normal, turned);
+    for (int i = 0; i < 3; i++) {
+        vertex->position[i] = (float)at[i];
+        vertex->normal[i] = (float)turned[i];
+    }
+    vertex->opacity = opacity;
+    vertex->shininess = shininess;
+    memcpy(vertex->colour, b->colour, sizeof b->colour);
+}
+
+/* A vertex for each point. Those of points without a triangle are never drawn, whatever they hold. */
+static void add_points(struct building *b)
+{
+    const struct mesh *mesh = b->skin->mesh;
+    const float *sums = b->geometry->sums.items;
+    for (uint32_t p = 0; p < mesh->point_count; p++)
+        set_vertex(b, &b->geometry->vertices.items[b->first_vertex + p], p, mesh->normal[p],
+                   sums[3 * (size_t)p], sums[3 * (size_t)p + 1]);
+    b->geometry->vertices.count += mesh->point_count;
+}
+
+static bool is_direction(const double normal[3])
+{
+    double square = vec3_dot(normal, normal);
+    return square > 1e-12 && square < 1e12;
+}
+
+/* The vertex of a triangle's corner: the point's own, or one added for this corner. */
+static uint32_t corner_vertex(struct building *b, uint32_t t, int k, const double facet[3])
+{
+    const struct mesh *mesh = b->skin->mesh;
+    uint32_t point = mesh->triangle[t][k];
+    bool smooth = mesh->normal && is_direction(mesh->normal[point]);
+    if (b->shared && smooth)
+        return b->first_vertex + point;
+    const float *mean = b->geometry->sums.items + 3 * (size_t)point;
+    bool own = b->skin->facets;
+    uint32_t vertex = (uint32_t)b->geometry->vertices.count++;
+    set_vertex(b, &b->geometry->vertices.items[vertex], point, smooth ? mesh->normal[point] : facet,
+               own ? opacity_of(b->skin, t) : mean[0], own ? shininess_of(b->skin, t) : mean[1]);
+    return vertex;
+}
+
+/* The normal of the triangle itself; any direction where it has no area. False where it is too far to draw. */
+static bool facet_normal(const struct building *b, uint32_t t, double facet[3])
+{
+    const struct mesh *mesh = b->skin->mesh;
+    double at[3][3];
+    for (int k = 0; k < 3; k++) {
+        camera_to_space(b->space, mesh->position[mesh->triangle[t][k]], at[k]);
+        if (!(fabs(at[k][0]) < limit && fabs(at[k][1]) < limit && fabs(at[k][2]) < limit))
+            return false;
+    }
+    double a[3], c[3], d[3];
+    vec3_sub(mesh->position[mesh->triangle[t][1]], mesh->position[mesh->triangle[t][0]], a);
+    vec3_sub(mesh->position[mesh->triangle[t][2]], mesh->position[mesh->triangle[t][0]], c);
+    vec3_cross(a, c, d);
+    double length = vec3_length(d);
+    for (int i = 0; i < 3; i++)
+        facet[i] = length > 0 ? d[i] / length : i == 2;
+    return true;
+}
+
+/* Distances are positive floats, whose bits sort like the numbers. */
+static uint32_t nearness_of(const double square_distance)
+{
+    float key = (float)square_distance;
+    uint32_t bits;
+    memcpy(&bits, &key, sizeof bits);
+    return ~bits;
+}
+
+static void add_triangle(struct building *b, uint32_t t)
+{
+    struct geometry *g = b->geometry;
+    double facet[3];
+    if (!facet_normal(b, t, facet))
+        return;
+    struct geometry_triangle triangle;
+    double middle[3] = {0};
+    bool opaque = true;
+    for (int k = 0; k < 3; k++) {
+        triangle.vertex[k] = corner_vertex(b, t, k, facet);
+        const struct geometry_vertex *vertex = &g->vertices.items[triangle.vertex[k]];
+        opaque = opaque && vertex->opacity >= opaque_from;
+        for (int i = 0; i < 3; i++)
+            middle[i] += vertex->position[i] / 3.0;
+        g->nearest = fmin(g->nearest, -vertex->position[2]);
+        g->farthest = fmax(g->farthest, -vertex->position[2]);
+    }
+    triangle.nearness = nearness_of(vec3_dot(middle, middle));
+    if (opaque)
+        g->opaque.items[g->opaque.count++] = triangle;
+    else
+        g->translucent.items[g->translucent.count++] = triangle;
+}
+
+static enum status add_skin(struct building *b, struct error *err)
+{
+    struct geometry *g = b->geometry;
+    const struct mesh *mesh = b->skin->mesh;
+    size_t triangles = mesh->triangle_count, corners = 3 * triangles;
+    b->shared = mesh->normal && !b->skin->facets;
+    for (int i = 0; i < 3; i++)
+        b->colour[i] = (uint16_t)lrintf(clamp(b->skin->colour[i], 0, 1) * 65535);
+    enum status status = check_triangles(b, err);
+    if (status)
+        return status;
+    g->sums.count = 0;
+    if (g->vertices.count + corners + mesh->point_count > UINT32_MAX)
+        return error_set(err, STATUS_RANGE, "skin %zu: more triangles than can be drawn at once",
+                         b->skin_number);
+    if (!ARRAY_RESERVE(&g->vertices, corners + (b->shared ? mesh->point_count : 0)) ||
+        !ARRAY_RESERVE(&g->opaque, triangles) || !ARRAY_RESERVE(&g->translucent, triangles) ||
+        !ARRAY_RESERVE(&g->sums, 3 * (size_t)mesh->point_count))
+        return error_no_memory(err, "the triangles to draw");
+    b->first_vertex = (uint32_t)g->vertices.count;
+    average_at_points(b);
+    if (b->shared)
+        add_points(b);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        if (is_drawn(b->skin, t))
+            add_triangle(b, t);
+    return STATUS_OK;
+}
+
+/* Least significant digit first, 11 bits at a time. */
+void geometry_sort(struct geometry_triangle *triangles, struct geometry_triangle *spare, size_t count)
+{
+    struct geometry_triangle *from = triangles, *to = spare;
+    for (int shift = 0; shift < 33; shift += 11) {
+        size_t start[2049] = {0};
+        for (size_t i = 0; i < count; i++)
+            start[(from[i].nearness >> shift & 2047) + 1]++;
+        for (int digit = 0; digit < 2048; digit++)
+            start[digit + 1] += start[digit];
+        for (size_t i = 0; i < count; i++)
+            to[start[from[i].nearness >> shift & 2047]++] = from[i];
+        struct geometry_triangle *swap = from;
+        from = to;
+        to = swap;
+    }
+    if (count)
+        memcpy(triangles, spare, count * sizeof *triangles);
+}
+
+static enum status order_triangles(struct geometry *g, bool sorted, struct error *err)
+{
+    size_t opaque = g->opaque.count, translucent = g->translucent.count;
+    g->indices.count = g->spare.count = 0;
+    if (!ARRAY_RESERVE(&g->spare, translucent) || !ARRAY_RESERVE(&g->indices, 3 * (opaque + translucent)))
+        return error_no_memory(err, "the triangles' order");
+    if (sorted)
+        geometry_sort(g->translucent.items, g->spare.items, translucent);
+    for (size_t i = 0; i < opaque; i++)
+        memcpy(g->indices.items + 3 * i, g->opaque.items[i].vertex, 3 * sizeof(uint32_t));
+    for (size_t i = 0; i < translucent; i++)
+        memcpy(g->indices.items + 3 * (opaque + i), g->translucent.items[i].vertex, 3 * sizeof(uint32_t));
+    g->indices.count = 3 * (opaque + translucent);
+    return STATUS_OK;
+}
+
+enum status geometry_build(struct geometry *g, const struct render_view *view,
+                           const struct render_skin *skins, size_t skin_count, struct error *err)
+{
+    struct camera_space space;
+    camera_space_of(&view->camera, &space);
+    g->vertices.count = g->opaque.count = g->translucent.count = 0;
+    g->nearest = INFINITY;
+    g->farthest = 0;
+    for (size_t i = 0; i < skin_count; i++) {
+        struct building b = {.geometry = g, .space = &space, .skin = &skins[i], .skin_number = i};
+        enum status status = add_skin(&b, err);
+        if (status)
+            return status;
+    }
+    g->farthest = fmin(fmax(g->farthest * 1.01, 2 * nearest_drawn), farthest_drawn);
+    g->nearest = fmin(fmax(g->nearest * 0.99, nearest_drawn), g->farthest / 2);
+    g->shadow.visible = false;
+    if (view->floor)
+        geometry_cast_shadow(&g->shadow, &space, view->floor_height, skins, skin_count);
+    return order_triangles(g, view->sorted, err);
+}
+
+void geometry_clear(struct geometry *g)
+{
+    free(g->vertices.items);
+    free(g->opaque.items);
+    free(g->translucent.items);
+    free(g->spare.items);
+    free(g->indices.items);
+    free(g->sums.items);
+    *g = (struct geometry){0};
+}

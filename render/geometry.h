@@ -1,0 +1,70 @@
+/*
+ * What the graphics card gets: the skins' triangles in camera space, built once a frame for both eyes, opaque
+ * ones first, translucent ones behind them in the order they are drawn.
+ *
+ *     struct geometry geometry = {0};
+ *     if (geometry_build(&geometry, view, skins, count, err)) ...    once a frame; keeps its memory
+ *     geometry_clear(&geometry);
+ */
+#ifndef RENDER_GEOMETRY_H
+#define RENDER_GEOMETRY_H
+
+#include "render/camera.h"
+#include "render/render.h"
+
+#include <stdint.h>
+
+struct geometry_vertex {
+    float position[3], normal[3]; /* in camera space; the normal outward, unit length or nearly so */
+    float opacity, shininess;
+    uint16_t colour[4]; /* linear, 65535 = 1; the last is unused */
+};
+
+/* A triangle on its way into the index array. */
+struct geometry_triangle {
+    uint32_t vertex[3];
+    uint32_t nearness; /* larger is nearer: the order to draw in; the bits of a float upside down */
+};
+
+/* The shadow that the skins cast from above onto the floor: a Gaussian with their area's mean and
+ * covariance. */
+struct geometry_shadow {
+    float corner[4][3]; /* in camera space, at +-3 standard deviations: (-,-), (+,-), (-,+), (+,+) */
+    float colour[3];    /* of the light that is left in its middle, for white light from above */
+    bool visible;
+};
+
+struct geometry {
+    struct {
+        struct geometry_vertex *items;
+        size_t count, capacity;
+    } vertices;
+    struct {
+        struct geometry_triangle *items;
+        size_t count, capacity;
+    } opaque, translucent, spare;
+    struct {
+        uint32_t *items;
+        size_t count, capacity;
+    } indices; /* 3 for each triangle, opaque ones first */
+    struct {
+        float *items;
+        size_t count, capacity;
+    } sums;                   /* of opacity, shininess, triangles for each point of a skin */
+    double nearest, farthest; /* distances before the camera that hold every triangle in sight */
+    struct geometry_shadow shadow;
+};
+
+/* Errors: STATUS_RANGE naming the skin and element, STATUS_NO_MEMORY. `view` has been checked. */
+enum status geometry_build(struct geometry *geometry, const struct render_view *view,
+                           const struct render_skin *skins, size_t skin_count, struct error *err);
+void geometry_clear(struct geometry *geometry);
+
+/* Sorts by nearness, farthest first; spare has room for as many. Equal ones keep their order. */
+void geometry_sort(struct geometry_triangle *triangles, struct geometry_triangle *spare, size_t count);
+
+/* Lays the skins' shadow on the floor y = height. shadow.c */
+void geometry_cast_shadow(struct geometry_shadow *shadow, const struct camera_space *space, double height,
+                          const struct render_skin *skins, size_t skin_count);
+
+#endif

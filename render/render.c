@@ -1,0 +1,83 @@
+#include "render/render.h"
+
+#include "render/camera.h"
+#include "render/context.h"
+#include "render/draw.h"
+#include "render/target.h"
+
+#include <stdlib.h>
+
+struct render {
+    struct context *context;
+    struct gl gl;
+    struct draw draw;
+    struct target target;
+    struct geometry geometry;
+};
+
+static int samples_of(const struct render_view *view)
+{
+    return view->smooth_edges ? 4 : 1;
+}
+
+static enum status open_parts(struct render *render, int width, int height, struct error *err)
+{
+    enum status status = context_open(&render->context, err);
+    if (!status)
+        status = gl_load(&render->gl, context_function, err);
+    if (!status)
+        status = draw_open(&render->draw, &render->gl, err);
+    if (!status)
+        status = target_bind(&render->target, &render->gl, width, height, 1, err);
+    return status;
+}
+
+enum status render_open(int width, int height, struct render **result, struct error *err)
+{
+    if (width < 1 || height < 1 || width > IMAGE_SIDE_MAX || height > IMAGE_SIDE_MAX)
+        return error_set(err, STATUS_RANGE, "a picture of %d x %d cannot be drawn; each side must be 1 to %d",
+                         width, height, IMAGE_SIDE_MAX);
+    struct render *render = calloc(1, sizeof *render);
+    if (!render)
+        return error_no_memory(err, "the renderer");
+    enum status status = open_parts(render, width, height, err);
+    if (status) {
+        render_close(render);
+        return status;
+    }
+    *result = render;
+    return STATUS_OK;
+}
+
+enum status render_draw(struct render *render, const struct render_view *view,
+                        const struct render_skin *skins, size_t skin_count, struct image *out,
+                        struct error *err)
+{
+    enum status status = camera_check(view, err);
+    if (!status)
+        status = geometry_build(&render->geometry, view, skins, skin_count, err);
+    if (!status)
+        status = image_resize(out, view->width, view->height, err);
+    if (!status)
+        status = context_use(render->context, err);
+    if (!status)
+        status = target_bind(&render->target, &render->gl, view->width, view->height, samples_of(view), err);
+    if (status)
+        return status;
+    draw_frame(&render->draw, &render->gl, view, &render->geometry);
+    return target_read(&render->target, &render->gl, out, err);
+}
+
+void render_close(struct render *render)
+{
+    if (!render)
+        return;
+    struct error ignored;
+    if (render->context && render->gl.Viewport && !context_use(render->context, &ignored)) {
+        target_clear(&render->target, &render->gl);
+        draw_close(&render->draw, &render->gl);
+    }
+    geometry_clear(&render->geometry);
+    context_close(render->context);
+    free(render);
+}

@@ -1,0 +1,27 @@
+/* The picture that the graphics card draws into, off-screen: sRGB, with depth, one or four samples a pixel. */
+#ifndef RENDER_TARGET_H
+#define RENDER_TARGET_H
+
+#include "render/gl.h"
+#include "render/image.h"
+
+#include <stdbool.h>
+
+struct target {
+    GLuint drawn, colour, depth;      /* framebuffer and its buffers */
+    GLuint resolved, resolved_colour; /* with one sample a pixel, to read from; 0 when `drawn` has that */
+    int width, height, samples;
+    unsigned char *pixels; /* [height][width][4] read back, the bottom row first */
+};
+
+/* Makes it that size and binds it; kept as it is where it has that size already. `{0}` is an empty target.
+ * Errors: STATUS_NO_MEMORY, STATUS_RESOURCE (more than this OpenGL can draw); then it is empty. */
+enum status target_bind(struct target *target, const struct gl *gl, int width, int height, int samples,
+                        struct error *err);
+
+/* Copies what was drawn to the image, which has the target's size. Errors: STATUS_NO_MEMORY. */
+enum status target_read(struct target *target, const struct gl *gl, struct image *out, struct error *err);
+
+void target_clear(struct target *target, const struct gl *gl);
+
+#endif
