@@ -1,0 +1,164 @@
+/*
+ * STL (3D Systems, 1989): a soup of triangles, as text or in records of 50 bytes. Many binary files begin with
+ * "solid" like the text ones; what tells them apart is their size, 84 + 50 x the count at byte 80.
+ */
+#include "common/array.h"
+#include "common/mesh_files.h"
+#include "common/text.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { HEAD_SIZE = 84, COUNT_AT = 80, FACET_SIZE = 50, CORNERS_AT = 12 };
+
+/* Corners, three a triangle. */
+struct soup {
+    double (*items)[3];
+    size_t count, capacity;
+};
+
+static uint32_t little_endian(const unsigned char *bytes)
+{
+    return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
+}
+
+static bool is_binary(const struct bytes *bytes)
+{
+    return bytes->size >= HEAD_SIZE &&
+           bytes->size == HEAD_SIZE + (uint64_t)FACET_SIZE * little_endian(bytes->data + COUNT_AT);
+}
+
+static enum status read_binary(const struct bytes *bytes, const char *path, struct soup *soup,
+                               struct error *err)
+{
+    size_t triangle_count = (bytes->size - HEAD_SIZE) / FACET_SIZE;
+    if (!ARRAY_RESERVE(soup, 3 * triangle_count))
+        return error_no_memory(err, path);
+    for (size_t t = 0; t < triangle_count; t++) {
+        const unsigned char *at = bytes->data + HEAD_SIZE + FACET_SIZE * t + CORNERS_AT;
+        for (size_t i = 0; i < 9; i++, at += 4) {
+            uint32_t bits = little_endian(at);
+            float value;
+            memcpy(&value, &bits, sizeof value);
+            if (!isfinite(value))
+                return error_set(err, STATUS_INPUT,
+                                 "%s: triangle %zu: %c of corner %zu is %g; must be finite", path, t,
+                                 "xyz"[i % 3], i / 3, (double)value);
+            soup->items[3 * t + i / 3][i % 3] = (double)value;
+        }
+    }
+    soup->count = 3 * triangle_count;
+    return STATUS_OK;
+}
+
+static enum status want_word(struct text *text, const char *wanted, struct error *err)
+{
+    struct word word;
+    char shown[WORD_SHOWN_SIZE];
+    if (!text_any_word(text, &word))
+        return text_fail(text, err, "the file ends here; '%s' must follow", wanted);
+    if (!word_is(word, wanted))
+        return text_fail(text, err, "'%s'; must be '%s'", word_show(word, shown), wanted);
+    return STATUS_OK;
+}
+
+static enum status want_numbers(struct text *text, double number[3], struct error *err)
+{
+    struct word word;
+    char shown[WORD_SHOWN_SIZE];
+    for (int i = 0; i < 3; i++) {
+        if (!text_any_word(text, &word))
+            return text_fail(text, err, "the file ends here; a number must follow");
+        if (!word_number(word, &number[i]))
+            return text_fail(text, err, "'%s'; must be a number", word_show(word, shown));
+    }
+    return STATUS_OK;
+}
+
+static enum status want_corner(struct text *text, struct soup *soup, struct error *err)
+{
+    enum status status = want_word(text, "vertex", err);
+    if (!status && !ARRAY_RESERVE(soup, 1))
+        status = error_no_memory(err, text->path);
+    if (!status)
+        status = want_numbers(text, soup->items[soup->count], err);
+    for (int i = 0; i < 3 && !status; i++) {
+        if (!isfinite(soup->items[soup->count][i]))
+            status = text_fail(text, err, "%c is %g; must be finite", "xyz"[i],
+                               soup -> items[soup->count][i]);
+    }
+    soup->count += !status;
+    return status;
+}
+
+/* What follows the word "facet". The normal is not used: the winding says the same. */
+static enum status want_facet(struct text *text, struct soup *soup, struct error *err)
+{
+    double normal[3];
+    enum status status = want_word(text, "normal", err);
+    if (!status)
+        status = want_numbers(text, normal, err);
+    if (!status)
+        status = want_word(text, "outer", err);
+    if (!status)
+        status = want_word(text, "loop", err);
+    for (int k = 0; k < 3 && !status; k++)
+        status = want_corner(text, soup, err);
+    if (!status)
+        status = want_word(text, "endloop", err);
+    return status ? status : want_word(text, "endfacet", err);
+}
+
+/* One "solid NAME ... endsolid NAME" or several. */
+static enum status read_text(struct text *text, struct soup *soup, struct error *err)
+{
+    struct word word;
+    char shown[WORD_SHOWN_SIZE];
+    enum status status = STATUS_OK;
+    bool inside = false;
+    while (!status && text_any_word(text, &word)) {
+        if (inside && word_is(word, "facet")) {
+            status = want_facet(text, soup, err);
+        } else if (word_is(word, inside ? "endsolid" : "solid")) {
+            inside = !inside;
+            text_next_line(text);
+        } else {
+            status = text_fail(text, err, "'%s'; must be %s", word_show(word, shown),
+                               inside ? "'facet' or 'endsolid'" : "'solid'");
+        }
+    }
+    if (!status && inside)
+        status = text_fail(text, err, "the file ends here; 'endsolid' must follow");
+    return status;
+}
+
+static enum status read_soup(const struct bytes *bytes, const char *path, struct soup *soup,
+                             struct error *err)
+{
+    struct text text = text_of(path, bytes->data, bytes->size);
+    struct text begin = text;
+    struct word word;
+    if (is_binary(bytes))
+        return read_binary(bytes, path, soup, err);
+    if (text_any_word(&begin, &word) && word_is(word, "solid"))
+        return read_text(&text, soup, err);
+    if (bytes->size < HEAD_SIZE)
+        return error_set(err, STATUS_INPUT,
+                         "%s: no STL file: it neither begins with 'solid' nor has the %d bytes of a header",
+                         path, HEAD_SIZE);
+    uint32_t count = little_endian(bytes->data + COUNT_AT);
+    return error_set(err, STATUS_INPUT, "%s: %u triangles in a binary STL take %llu bytes; the file has %zu",
+                     path, count, (unsigned long long)HEAD_SIZE + (unsigned long long)FACET_SIZE * count,
+                     bytes->size);
+}
+
+enum status mesh_read_stl(const struct bytes *bytes, const char *path, struct mesh *mesh, struct error *err)
+{
+    struct soup soup = {0};
+    enum status status = read_soup(bytes, path, &soup, err);
+    if (!status)
+        status = mesh_from_soup((const double(*)[3])soup.items, soup.count / 3, mesh, err);
+    free(soup.items);
+    return status;
+}
