@@ -1,0 +1,123 @@
+/*
+ * A scene: what a simulation is asked for. Read from a .cfg file (libconfig's grammar), or made from a mesh with
+ * the paper's settings, then adjusted key by key.
+ *
+ *     struct scene scene = {0};
+ *     if (scene_load("burst.cfg", &scene, err)) ...          or scene_from_mesh("fox.ply", &scene, err)
+ *     if (scene_set(&scene, "time.step=0.01", err)) ...      any key by its path
+ *     if (scene_check(&scene, err)) ...                      what no single key can say
+ *     scene_clear(&scene);
+ *
+ * Every key stands in one table, scene_fields.h, with its type, unit, range, default and meaning; the reader,
+ * scene_set and scene_write_help all go by it. A block that the scene does not name has `on` false: its effect does
+ * not exist.
+ */
+#ifndef COMMON_SCENE_H
+#define COMMON_SCENE_H
+
+#include "common/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+struct scene_time {
+    double step, end; /* s */
+    int integrator;   /* index into scene_integrator_names */
+};
+
+struct scene_view {
+    int size[2];           /* pixels of the whole picture */
+    double camera[3];      /* the eye, from the target, in radii of what is seen at rest */
+    double target[3];      /* from the centre of the balloons at rest, in the same radii */
+    double field_of_view;  /* degrees, vertical */
+    int stereo;            /* index into scene_stereo_names */
+    double eye_distance;   /* over the distance from eye to target */
+    double rate, playback; /* frames a simulated second; frames a second in the movie */
+};
+
+/* A function given by a table: straight lines between the rows, constant beyond the first and the last. */
+struct scene_profile {
+    double (*row)[2]; /* [count] */
+    size_t count;
+};
+
+struct scene_spring_by_height {
+    bool on;
+    struct scene_profile profile; /* height, 0 lowest to 1 highest -> factor */
+};
+
+struct scene_rip {
+    bool on;
+    double at, stretch;  /* opens once both are reached */
+    double place[3];     /* direction from the balloon's centre */
+    double direction[3]; /* of the cut, as seen there */
+    double length;       /* of the cut, in mean radii */
+};
+
+struct scene_balloon {
+    char *mesh;         /* path; relative ones already joined to the scene's folder */
+    double radius;      /* mean distance of the points from their centre; 0: as the mesh has it */
+    double position[3]; /* of that centre */
+    double point_mass, spring, spring_factor, damping;
+    double threshold;          /* an edge lets go at this length over the mean rest length */
+    double pressure;           /* force on each point */
+    double colour[3];          /* sRGB, 0 to 1 */
+    double opacity, shininess; /* at rest */
+    struct scene_spring_by_height spring_by_height;
+    struct scene_rip rip;
+};
+
+enum { SCENE_CHANGES_MAX = 8 };
+
+/* Keys that change between two steps, as the paper's user changes them by hand (3.5). */
+struct scene_schedule {
+    double at;   /* s */
+    int balloon; /* which one; -1: all */
+    size_t change_count;
+    struct {
+        const struct scene_field *field;
+        double value;
+    } change[SCENE_CHANGES_MAX];
+};
+
+struct scene {
+    char *path; /* of the file, for messages; NULL without one */
+    struct scene_time time;
+    struct scene_view view;
+    struct scene_balloon *balloons; /* [balloon_count] */
+    size_t balloon_count, balloon_capacity;
+    struct scene_schedule *schedule; /* [schedule_count], by time once scene_check() has passed */
+    size_t schedule_count, schedule_capacity;
+};
+
+extern const char *const scene_integrator_names[]; /* NULL-terminated, like all lists of choices */
+extern const char *const scene_stereo_names[];
+enum scene_stereo { SCENE_MONO, SCENE_PARALLEL, SCENE_CROSSED };
+
+/* Reads a scene file. *scene must be empty ({0}) and is so again after a failure. Errors: STATUS_FILE, STATUS_INPUT with
+ * FILE:LINE, the key, and what would be right. */
+enum status scene_load(const char *path, struct scene *scene, struct error *err);
+
+/* The paper's settings around one mesh. */
+enum status scene_from_mesh(const char *mesh_path, struct scene *scene, struct error *err);
+
+/* Takes "PATH=VALUE", for example "balloons[0].pressure=12", "view.size=[640,480]", "view.stereo=crossed". A key of a
+ * block that was not there calls for the block. Relative paths are relative to the current folder. */
+enum status scene_set(struct scene *scene, const char *assignment, struct error *err);
+
+/* What only the whole scene can tell: balloons without a mesh, a schedule for a balloon that is not there, an end
+ * before the first step. Puts the schedule in the order of time. */
+enum status scene_check(struct scene *scene, struct error *err);
+
+void scene_clear(struct scene *scene);
+
+/* The profile's value at x; 1 for an empty one. */
+double scene_profile_at(const struct scene_profile *profile, double x);
+
+/* Every key with its type, unit, range, default and meaning, as text (`--help-scene`), or as mdoc for the man page. */
+void scene_write_help(FILE *stream);
+void scene_write_mdoc(FILE *stream);
+
+#endif

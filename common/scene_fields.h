@@ -1,0 +1,111 @@
+/*
+ * Every key that a scene can have: the one place where its type, range, unit, default, meaning and source are said.
+ * A row is
+ *     X(key, TYPE, least, most, default, unit, flags, "meaning", "source")
+ * The member of the struct in scene.h has the key's name. Defaults are written as in a scene file. Ranges of a vector
+ * hold for each of its numbers. LIVE keys may stand in the schedule. Units are the scene's own (the paper gives none):
+ * length, mass and time are whatever the user takes them for, as long as they agree.
+ */
+#ifndef COMMON_SCENE_FIELDS_H
+#define COMMON_SCENE_FIELDS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#define SCENE_TIME_FIELDS(X)                                                                      \
+    X(step, NUMBER, 1e-9, 1e6, "0.025", "s", LIVE, "from one step to the next", "paper 4")        \
+    X(end, NUMBER, 0, 1e9, "10", "s", 0, "when the simulation ends", "paper 4: about 400 frames") \
+    X(integrator, CHOICE, 0, 0, "\"symplectic-euler\"", "", 0, "method that moves the points", "paper 3.1")
+
+#define SCENE_VIEW_FIELDS(X)                                                                              \
+    X(size, SIZE, 16, 16384, "[1280, 480]", "pixels", 0, "width and height of the whole picture", "")     \
+    X(camera, VECTOR, -1e3, 1e3, "[0.0, 1.2, 8.0]", "radii", 0, "the eye, seen from the target", "")      \
+    X(target, VECTOR, -1e3, 1e3, "[0.0, 0.0, 0.0]", "radii", 0,                                           \
+      "what the eye looks at, from the balloons' centre", "")                                             \
+    X(field_of_view, NUMBER, 1, 150, "30", "degrees", 0, "vertical angle of the picture", "")             \
+    X(stereo, CHOICE, 0, 0, "\"parallel\"", "", 0, "one eye, or two side by side", "paper 3.7")           \
+    X(eye_distance, NUMBER, 0, 1, "0.05", "", 0, "between the eyes, over the distance to the target", "") \
+    X(rate, NUMBER, 1e-6, 1e6, "40", "1/s", 0, "frames drawn and rows logged a simulated second",         \
+      "paper 4: one a step")                                                                              \
+    X(playback, NUMBER, 1, 240, "25", "1/s", 0, "frames a second in the movie", "")
+
+#define SCENE_BALLOON_FIELDS(X)                                                                             \
+    X(mesh, TEXT, 0, 0, "", "file", 0, ".ply, .stl or .obj, relative to the scene file", "paper 3.4")       \
+    X(radius, NUMBER, 0, 1e6, "45", "length", 0,                                                            \
+      "mean distance of points from their centre; 0: as in the mesh", "")                                   \
+    X(position, VECTOR, -1e6, 1e6, "[0.0, 0.0, 0.0]", "length", 0, "of that centre", "")                    \
+    X(point_mass, NUMBER, 1e-9, 1e9, "0.11", "mass", 0, "of each point", "paper 3.1")                       \
+    X(spring, NUMBER, 0, 1e9, "20", "force/length", 0, "spring constant of each edge", "paper 4")           \
+    X(spring_factor, NUMBER, 0, 1e6, "1", "", LIVE, "the spring constants' weight", "paper 3.5")            \
+    X(damping, NUMBER, 0, 1e9, "1", "force s/length", LIVE, "against the speed of closing along an edge",   \
+      "paper 2")                                                                                            \
+    X(threshold, NUMBER, 1, 1e6, "2", "", LIVE, "an edge lets go at this length over the mean rest length", \
+      "paper 4")                                                                                            \
+    X(pressure, NUMBER, -1e9, 1e9, "10", "force", LIVE, "on each point, along its normal", "paper 3.2")     \
+    X(colour, VECTOR, 0, 1, "[0.85, 0.09, 0.12]", "", 0, "red, green and blue (sRGB) of the skin at rest",  \
+      "")                                                                                                   \
+    X(opacity, NUMBER, 0.01, 1, "0.97", "", 0, "of the skin at rest; it thins with the stretch",            \
+      "paper 3.3")                                                                                          \
+    X(shininess, NUMBER, 1, 1000, "12", "", 0,                                                              \
+      "exponent of the highlight at rest; it grows with the stretch", "paper 3.3")
+
+#define SCENE_SPRING_BY_HEIGHT_FIELDS(X)                                                             \
+    X(profile, PAIRS, 0, 1e6, "", "", 0, "rows (height, factor): 0 the lowest point, 1 the highest", \
+      "paper 3.1")
+
+#define SCENE_RIP_FIELDS(X)                                                                      \
+    X(at, NUMBER, 0, 1e9, "0", "s", 0, "opens no earlier than this", "paper 4.1")                \
+    X(stretch, NUMBER, 0, 1e6, "1", "", 0,                                                       \
+      "and not before the mean edge is this long, over the mean rest length", "paper 4.1")       \
+    X(place, VECTOR, -1e6, 1e6, "[0.0, 0.0, 1.0]", "", 0,                                        \
+      "middle of the cut: a direction from the balloon's centre", "")                            \
+    X(direction, VECTOR, -1e6, 1e6, "[0.0, 1.0, 0.0]", "", 0, "in which the cut runs there", "") \
+    X(length, NUMBER, 0, 7, "1", "radii", 0, "of the cut along the skin", "")
+
+#define SCENE_SCHEDULE_FIELDS(X)                                                                \
+    X(at, NUMBER, 0, 1e9, "0", "s", 0, "when the other keys of this entry change", "paper 3.5") \
+    X(balloon, WHOLE, -1, 1e6, "-1", "", 0, "number of the balloon, from 0; -1: all", "")
+
+enum scene_type {
+    SCENE_NUMBER, /* double */
+    SCENE_WHOLE,  /* int */
+    SCENE_TEXT,   /* char *, owned; a path */
+    SCENE_CHOICE, /* int: index into the field's choices */
+    SCENE_VECTOR, /* double[3] */
+    SCENE_SIZE,   /* int[2] */
+    SCENE_PAIRS,  /* struct scene_profile, owned */
+};
+
+enum { SCENE_LIVE = 1 };
+
+struct scene_field {
+    const char *key;
+    enum scene_type type;
+    size_t offset; /* of the member in its block's struct */
+    double least, most;
+    const char *standard, *unit; /* the default as it would be written; "" for none */
+    int flags;
+    const char *meaning, *source;
+    const char *const *choices; /* NULL-terminated, for SCENE_CHOICE */
+};
+
+/* A block of keys: the scene's own, a list's (balloons, schedule), or an effect's inside a balloon. */
+struct scene_block {
+    const char *name;   /* "time", "balloons", "rip", ... */
+    const char *parent; /* "" or "balloons" */
+    bool list;          /* a list of blocks: balloons, schedule */
+    const struct scene_field *fields;
+    size_t field_count;
+    size_t offset;    /* of the block in its parent's struct (not of a list) */
+    size_t on_offset; /* of its `bool on` in the block's struct; SIZE_MAX: always on */
+    const char *meaning;
+};
+
+extern const struct scene_block scene_blocks[];
+extern const size_t scene_block_count;
+
+/* The block of that name in that parent, or NULL. */
+const struct scene_block *scene_find_block(const char *parent, const char *name);
+const struct scene_field *scene_find_field(const struct scene_block *block, const char *key);
+
+#endif

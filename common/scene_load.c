@@ -1,0 +1,320 @@
+/* Scene files and --set: which value goes to which block. */
+#include "common/array.h"
+#include "common/file.h"
+#include "common/scene.h"
+#include "common/scene_value.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+static enum status read_written(const struct scene_field *field, const char *text, void *block,
+                                struct error *err)
+{
+    const struct scene_source source = {NULL, ""};
+    config_t config;
+    config_init(&config);
+    config_setting_t *value = scene_parse_value(&config, text);
+    enum status status = value
+                             ? scene_read_value(field, value, &source, block, err)
+                             : error_set(err, STATUS_INPUT, "--set: %s: `%s` is no value", field->key, text);
+    config_destroy(&config);
+    return status;
+}
+
+static enum status set_defaults(const struct scene_block *block, void *target, struct error *err)
+{
+    for (size_t i = 0; i < block->field_count; i++)
+        if (*block->fields[i].standard) {
+            enum status status = read_written(&block->fields[i], block->fields[i].standard, target, err);
+            if (status)
+                return status;
+        }
+    return STATUS_OK;
+}
+
+static enum status set_scene_defaults(struct scene *scene, struct error *err)
+{
+    enum status status = set_defaults(scene_find_block("", "time"), &scene->time, err);
+    return status ? status : set_defaults(scene_find_block("", "view"), &scene->view, err);
+}
+
+static enum status add_balloon(struct scene *scene, struct error *err)
+{
+    struct {
+        struct scene_balloon *items;
+        size_t count, capacity;
+    } list = {scene->balloons, scene->balloon_count, scene->balloon_capacity};
+    if (!ARRAY_RESERVE(&list, 1))
+        return error_no_memory(err, "the balloons");
+    scene->balloons = list.items;
+    scene->balloon_capacity = list.capacity;
+    struct scene_balloon *balloon = &scene->balloons[scene->balloon_count++];
+    *balloon = (struct scene_balloon){0};
+    enum status status = set_defaults(scene_find_block("", "balloons"), balloon, err);
+    for (size_t i = 0; i < scene_block_count && !status; i++)
+        if (!strcmp(scene_blocks[i].parent, "balloons"))
+            status = set_defaults(&scene_blocks[i], (char *)balloon + scene_blocks[i].offset, err);
+    return status;
+}
+
+static enum status add_schedule(struct scene *scene, struct error *err)
+{
+    struct {
+        struct scene_schedule *items;
+        size_t count, capacity;
+    } list = {scene->schedule, scene->schedule_count, scene->schedule_capacity};
+    if (!ARRAY_RESERVE(&list, 1))
+        return error_no_memory(err, "the schedule");
+    scene->schedule = list.items;
+    scene->schedule_capacity = list.capacity;
+    struct scene_schedule *entry = &scene->schedule[scene->schedule_count++];
+    *entry = (struct scene_schedule){0};
+    return set_defaults(scene_find_block("", "schedule"), entry, err);
+}
+
+static void call_for(const struct scene_block *block, void *target)
+{
+    if (block->on_offset != SIZE_MAX)
+        *(bool *)((char *)target + block->on_offset) = true;
+}
+
+/* A key that changes at a time: the step, or a LIVE key of the balloons. */
+static enum status read_change(const config_setting_t *value, const char *key,
+                               const struct scene_source *source, struct scene_schedule *entry,
+                               struct error *err)
+{
+    const struct scene_field *field = scene_find_field(scene_find_block("", "time"), key);
+    if (!field)
+        field = scene_find_field(scene_find_block("", "balloons"), key);
+    if (!field)
+        return scene_refuse_name(source, value, key, scene_find_block("", "schedule"), err);
+    if (!(field->flags & SCENE_LIVE))
+        return scene_refuse(source, value, err,
+                            "%s cannot change during the simulation; --help-scene marks what can", key);
+    size_t i = 0;
+    while (i < entry->change_count && entry->change[i].field != field)
+        i++;
+    if (i == SCENE_CHANGES_MAX)
+        return scene_refuse(source, value, err,
+                            "at most %d keys in one entry; begin another with the same `at`",
+                            SCENE_CHANGES_MAX);
+    enum status status = scene_read_number(field, value, source, &entry->change[i].value, err);
+    if (!status) {
+        entry->change[i].field = field;
+        entry->change_count = i < entry->change_count ? entry->change_count : i + 1;
+    }
+    return status;
+}
+
+/* Gives one key, or one effect's block, of a block its value. */
+static enum status read_key(const struct scene_block *block, void *target, const config_setting_t *value,
+                            const char *key, const struct scene_source *source, struct error *err);
+
+static enum status read_block(const struct scene_block *block, void *target, const config_setting_t *group,
+                              const struct scene_source *source, struct error *err)
+{
+    if (!config_setting_is_group(group))
+        return scene_refuse(source, group, err, "%s must be a block: { key = value; ... }", block->name);
+    call_for(block, target);
+    for (int i = 0; i < config_setting_length(group); i++) {
+        const config_setting_t *value = config_setting_get_elem(group, (unsigned)i);
+        enum status status = read_key(block, target, value, config_setting_name(value), source, err);
+        if (status)
+            return status;
+    }
+    return STATUS_OK;
+}
+
+static enum status read_key(const struct scene_block *block, void *target, const config_setting_t *value,
+                            const char *key, const struct scene_source *source, struct error *err)
+{
+    const struct scene_field *field = scene_find_field(block, key);
+    if (field)
+        return scene_read_value(field, value, source, target, err);
+    if (!strcmp(block->name, "schedule"))
+        return read_change(value, key, source, target, err);
+    const struct scene_block *effect = scene_find_block(block->name, key);
+    if (effect)
+        return read_block(effect, (char *)target + effect->offset, value, source, err);
+    return scene_refuse_name(source, value, key, block, err);
+}
+
+static enum status read_list(const struct scene_block *block, struct scene *scene,
+                             const config_setting_t *list, const struct scene_source *source,
+                             struct error *err)
+{
+    if (!config_setting_is_list(list))
+        return scene_refuse(source, list, err, "%s must be a list of blocks: ( { ... }, { ... } )",
+                            block->name);
+    bool balloons = !strcmp(block->name, "balloons");
+    for (int i = 0; i < config_setting_length(list); i++) {
+        enum status status = balloons ? add_balloon(scene, err) : add_schedule(scene, err);
+        void *target = status     ? NULL
+                       : balloons ? (void *)&scene->balloons[scene->balloon_count - 1]
+                                  : (void *)&scene->schedule[scene->schedule_count - 1];
+        if (!status)
+            status = read_block(block, target, config_setting_get_elem(list, (unsigned)i), source, err);
+        if (status)
+            return status;
+    }
+    return STATUS_OK;
+}
+
+static enum status read_scene(config_t *config, const struct scene_source *source, struct scene *scene,
+                              struct error *err)
+{
+    const config_setting_t *root = config_root_setting(config);
+    for (int i = 0; i < config_setting_length(root); i++) {
+        const config_setting_t *value = config_setting_get_elem(root, (unsigned)i);
+        const struct scene_block *block = scene_find_block("", config_setting_name(value));
+        enum status status = !block ? scene_refuse_name(source, value, config_setting_name(value), NULL, err)
+                             : block->list
+                                 ? read_list(block, scene, value, source, err)
+                                 : read_block(block, (char *)scene + block->offset, value, source, err);
+        if (status)
+            return status;
+    }
+    return STATUS_OK;
+}
+
+static enum status parse_file(const char *path, const struct bytes *text, struct scene *scene,
+                              struct error *err)
+{
+    const char *slash = strrchr(path, '/');
+    char *folder = strndup(path, slash ? (size_t)(slash - path) + 1 : 0);
+    scene->path = strdup(path);
+    if (!folder || !scene->path) {
+        free(folder);
+        return error_no_memory(err, path);
+    }
+    const struct scene_source source = {path, folder};
+    config_t config;
+    config_init(&config);
+    config_set_include_dir(&config, *folder ? folder : ".");
+    enum status status;
+    if (strlen((const char *)text->data) != text->size)
+        status = error_set(err, STATUS_INPUT, "%s: is not a scene file: it is not text", path);
+    else if (!config_read_string(&config, (const char *)text->data))
+        status = error_set(err, STATUS_INPUT, "%s:%d: %s; a scene is made of lines like key = value;",
+                           config_error_file(&config) ? config_error_file(&config) : path,
+                           config_error_line(&config), config_error_text(&config));
+    else
+        status = read_scene(&config, &source, scene, err);
+    config_destroy(&config);
+    free(folder);
+    return status;
+}
+
+enum status scene_load(const char *path, struct scene *scene, struct error *err)
+{
+    struct bytes text = {0};
+    enum status status = file_read(path, &text, err);
+    if (!status)
+        status = set_scene_defaults(scene, err);
+    if (!status)
+        status = parse_file(path, &text, scene, err);
+    bytes_clear(&text);
+    if (status)
+        scene_clear(scene);
+    return status;
+}
+
+enum status scene_from_mesh(const char *mesh_path, struct scene *scene, struct error *err)
+{
+    enum status status = set_scene_defaults(scene, err);
+    if (!status)
+        status = add_balloon(scene, err);
+    if (!status) {
+        scene->path = strdup(mesh_path);
+        scene->balloons[0].mesh = strdup(mesh_path);
+        if (!scene->path || !scene->balloons[0].mesh)
+            status = error_no_memory(err, "the scene");
+    }
+    if (status)
+        scene_clear(scene);
+    return status;
+}
+
+/* Takes "NAME", "NAME[3]" off the front of *path, and the dot behind it. False when it is neither. */
+static bool take_name(const char **path, char *name, size_t size, long *index)
+{
+    size_t length = strcspn(*path, "[.");
+    if (length == 0 || length >= size)
+        return false;
+    memcpy(name, *path, length);
+    name[length] = '\0';
+    *path += length;
+    *index = -1;
+    if (**path == '[') {
+        char *end;
+        *index = strtol(*path + 1, &end, 10);
+        if (end == *path + 1 || *end != ']' || *index < 0)
+            return false;
+        *path = end + 1;
+    }
+    if (**path == '.')
+        return *++*path != '\0';
+    return **path == '\0';
+}
+
+/* The block in a list that the path names by its index; NULL when there is none. */
+static void *list_item(struct scene *scene, const struct scene_block *block, long index, struct error *err)
+{
+    bool balloons = !strcmp(block->name, "balloons");
+    size_t count = balloons ? scene->balloon_count : scene->schedule_count;
+    if (index >= 0 && (size_t)index < count)
+        return balloons ? (void *)&scene->balloons[index] : (void *)&scene->schedule[index];
+    error_set(err, STATUS_INPUT, "--set: %s has %zu entries, written %s[0] to %s[%zu]", block->name, count,
+              block->name, block->name, count ? count - 1 : 0);
+    return NULL;
+}
+
+/* Sets one key by its path, with the value already parsed. */
+static enum status set_by_path(struct scene *scene, const char *path, const config_setting_t *value,
+                               struct error *err)
+{
+    const struct scene_source source = {NULL, ""};
+    const char *whole = path;
+    char name[64];
+    long index;
+    const struct scene_block *block = NULL;
+    void *target = scene;
+    while (take_name(&path, name, sizeof name, &index)) {
+        const struct scene_block *inner = scene_find_block(block ? block->name : "", name);
+        if (!*path && block && !inner)
+            return read_key(block, target, value, name, &source, err);
+        if (!inner)
+            return scene_refuse_name(&source, value, name, block, err);
+        if (inner->list && !(target = list_item(scene, inner, index, err)))
+            return STATUS_INPUT;
+        if (!inner->list)
+            target = (char *)target + inner->offset;
+        block = inner;
+        call_for(block, target);
+        if (!*path)
+            return error_set(err, STATUS_INPUT, "--set: %s is a block; set one of its keys: %s.KEY=VALUE",
+                             whole, whole);
+    }
+    return error_set(err, STATUS_INPUT,
+                     "--set: `%s` is no key; write balloons[0].pressure=12 or time.step=0.01", whole);
+}
+
+enum status scene_set(struct scene *scene, const char *assignment, struct error *err)
+{
+    const char *equals = strchr(assignment, '=');
+    if (!equals)
+        return error_set(err, STATUS_INPUT, "--set: `%s` has no value; write KEY=VALUE", assignment);
+    char *path = strndup(assignment, (size_t)(equals - assignment));
+    if (!path)
+        return error_no_memory(err, "--set");
+    config_t config;
+    config_init(&config);
+    config_setting_t *value = scene_parse_value(&config, equals + 1);
+    enum status status = value
+                             ? set_by_path(scene, path, value, err)
+                             : error_set(err, STATUS_INPUT, "--set: %s: `%s` is no value", path, equals + 1);
+    config_destroy(&config);
+    free(path);
+    return status;
+}

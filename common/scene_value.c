@@ -1,0 +1,232 @@
+#include "common/scene_value.h"
+#include "common/array.h"
+#include "common/scene.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum status scene_refuse(const struct scene_source *source, const config_setting_t *at, struct error *err,
+                         const char *format, ...)
+{
+    char text[ERROR_TEXT_SIZE];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    if (source->file)
+        return error_set(err, STATUS_INPUT, "%s:%u: %s", source->file, config_setting_source_line(at), text);
+    return error_set(err, STATUS_INPUT, "--set: %s", text);
+}
+
+/* Levenshtein's distance, for names short enough; used to guess what a misspelt key meant. */
+static size_t spelling_distance(const char *a, const char *b)
+{
+    enum { LONGEST = 40 };
+    size_t row[LONGEST + 1], length = strlen(b);
+    if (strlen(a) > LONGEST || length > LONGEST)
+        return LONGEST;
+    for (size_t j = 0; j <= length; j++)
+        row[j] = j;
+    for (size_t i = 1; a[i - 1]; i++) {
+        size_t diagonal = row[0];
+        row[0] = i;
+        for (size_t j = 1; j <= length; j++) {
+            size_t change = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = row[j];
+            size_t gap = (row[j] < row[j - 1] ? row[j] : row[j - 1]) + 1;
+            row[j] = change < gap ? change : gap;
+        }
+    }
+    return row[length];
+}
+
+struct guess {
+    const char *name;
+    size_t distance;
+};
+
+static void consider(struct guess *best, const char *wrong, const char *name)
+{
+    size_t distance = spelling_distance(wrong, name);
+    if (distance < best->distance)
+        *best = (struct guess){name, distance};
+}
+
+enum status scene_refuse_name(const struct scene_source *source, const config_setting_t *at, const char *name,
+                              const struct scene_block *block, struct error *err)
+{
+    const char *owner = block ? block->name : "";
+    struct guess best = {NULL, strlen(name) / 2 + 1};
+    for (size_t i = 0; block && i < block->field_count; i++)
+        consider(&best, name, block->fields[i].key);
+    for (size_t i = 0; i < scene_block_count; i++)
+        if (!strcmp(scene_blocks[i].parent, owner))
+            consider(&best, name, scene_blocks[i].name);
+    return scene_refuse(source, at, err, "unknown key `%s`%s%s%s%s%s; --help-scene lists all keys", name,
+                        block ? " in " : "", owner, best.name ? " (did you mean `" : "",
+                        best.name ? best.name : "", best.name ? "`?)" : "");
+}
+
+static bool to_number(const config_setting_t *value, double *number)
+{
+    switch (config_setting_type(value)) {
+    case CONFIG_TYPE_INT:
+        *number = config_setting_get_int(value);
+        return true;
+    case CONFIG_TYPE_INT64:
+        *number = (double)config_setting_get_int64(value);
+        return true;
+    case CONFIG_TYPE_FLOAT:
+        *number = config_setting_get_float(value);
+        return true;
+    default:
+        return false;
+    }
+}
+
+enum status scene_read_number(const struct scene_field *field, const config_setting_t *value,
+                              const struct scene_source *source, double *out, struct error *err)
+{
+    double number;
+    if (!to_number(value, &number))
+        return scene_refuse(source, value, err, "%s must be a number%s%s", field->key,
+                            *field->unit ? " in " : "", field->unit);
+    if (!(number >= field->least && number <= field->most))
+        return scene_refuse(source, value, err, "%s is %g; it must be from %g to %g%s%s", field->key, number,
+                            field->least, field->most, *field->unit ? " " : "", field->unit);
+    *out = number;
+    return STATUS_OK;
+}
+
+static enum status read_whole(const struct scene_field *field, const config_setting_t *value,
+                              const struct scene_source *source, int *out, struct error *err)
+{
+    double number;
+    enum status status = scene_read_number(field, value, source, &number, err);
+    if (!status && number != floor(number))
+        status = scene_refuse(source, value, err, "%s is %g; it must be a whole number", field->key, number);
+    if (!status)
+        *out = (int)number;
+    return status;
+}
+
+static enum status read_row(const struct scene_field *field, const config_setting_t *value, int count,
+                            const char *form, const struct scene_source *source, double *out,
+                            struct error *err)
+{
+    if (!config_setting_is_aggregate(value) || config_setting_is_group(value) ||
+        config_setting_length(value) != count)
+        return scene_refuse(source, value, err, "%s must be %d numbers: %s", field->key, count, form);
+    for (int i = 0; i < count; i++) {
+        enum status status = scene_read_number(field, config_setting_get_elem(value, (unsigned)i), source,
+                                               &out[i], err);
+        if (status)
+            return status;
+    }
+    return STATUS_OK;
+}
+
+static enum status read_pairs(const struct scene_field *field, const config_setting_t *value,
+                              const struct scene_source *source, struct scene_profile *out, struct error *err)
+{
+    int count = config_setting_is_list(value) ? config_setting_length(value) : 0;
+    if (count == 0)
+        return scene_refuse(source, value, err, "%s must be rows of two numbers: ( (0.0, 2.0), (1.0, 1.0) )",
+                            field->key);
+    double(*row)[2] = array_new((size_t)count, sizeof *row);
+    if (!row)
+        return error_no_memory(err, field->key);
+    for (int i = 0; i < count; i++) {
+        enum status status = read_row(field, config_setting_get_elem(value, (unsigned)i), 2,
+                                      "(height, factor)", source, row[i], err);
+        if (status) {
+            free(row);
+            return status;
+        }
+    }
+    free(out->row);
+    *out = (struct scene_profile){row, (size_t)count};
+    return STATUS_OK;
+}
+
+static enum status read_text(const struct scene_field *field, const config_setting_t *value,
+                             const struct scene_source *source, char **out, struct error *err)
+{
+    const char *text = config_setting_get_string(value);
+    if (!text || !*text)
+        return scene_refuse(source, value, err, "%s must be a name in quotes: %s = \"...\"", field->key,
+                            field->key);
+    size_t folder = *text == '/' ? 0 : strlen(source->folder), length = strlen(text) + 1;
+    char *path = malloc(folder + length);
+    if (!path)
+        return error_no_memory(err, field->key);
+    memcpy(path, source->folder, folder);
+    memcpy(path + folder, text, length);
+    free(*out);
+    *out = path;
+    return STATUS_OK;
+}
+
+static enum status read_choice(const struct scene_field *field, const config_setting_t *value,
+                               const struct scene_source *source, int *out, struct error *err)
+{
+    const char *text = config_setting_get_string(value);
+    char list[256] = "";
+    for (int i = 0; field->choices[i]; i++) {
+        if (text && !strcmp(field->choices[i], text)) {
+            *out = i;
+            return STATUS_OK;
+        }
+        size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, "%s\"%s\"", i ? ", " : "", field->choices[i]);
+    }
+    return scene_refuse(source, value, err, "%s%s%s%s must be one of %s", field->key, text ? " is \"" : "",
+                        text ? text : "", text ? "\"; it" : "", list);
+}
+
+enum status scene_read_value(const struct scene_field *field, const config_setting_t *value,
+                             const struct scene_source *source, void *block, struct error *err)
+{
+    void *member = (char *)block + field->offset;
+    double size[2];
+    enum status status;
+    switch (field->type) {
+    case SCENE_NUMBER:
+        return scene_read_number(field, value, source, member, err);
+    case SCENE_WHOLE:
+        return read_whole(field, value, source, member, err);
+    case SCENE_TEXT:
+        return read_text(field, value, source, member, err);
+    case SCENE_CHOICE:
+        return read_choice(field, value, source, member, err);
+    case SCENE_VECTOR:
+        return read_row(field, value, 3, "[x, y, z]", source, member, err);
+    case SCENE_PAIRS:
+        return read_pairs(field, value, source, member, err);
+    case SCENE_SIZE:
+        status = read_row(field, value, 2, "[width, height]", source, size, err);
+        for (int i = 0; i < 2 && !status; i++)
+            ((int *)member)[i] = (int)size[i];
+        return status;
+    }
+    return STATUS_OK;
+}
+
+config_setting_t *scene_parse_value(config_t *config, const char *text)
+{
+    size_t room = strlen(text) + sizeof "v = \"\";";
+    char *line = malloc(room);
+    if (!line)
+        return NULL;
+    snprintf(line, room, "v = %s;", text);
+    bool good = config_read_string(config, line);
+    if (!good && !strpbrk(text, "\"\\\n")) {
+        snprintf(line, room, "v = \"%s\";", text);
+        good = config_read_string(config, line);
+    }
+    free(line);
+    config_setting_t *root = config_root_setting(config);
+    return good && config_setting_length(root) == 1 ? config_setting_get_elem(root, 0) : NULL;
+}

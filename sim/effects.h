@@ -1,0 +1,10 @@
+/* The effects, one file each; effects.c lists them. */
+#ifndef SIM_EFFECTS_H
+#define SIM_EFFECTS_H
+
+#include "sim/sim.h"
+
+extern const struct effect effect_spring_by_height;
+extern const struct effect effect_rip;
+
+#endif

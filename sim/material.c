@@ -1,0 +1,30 @@
+/* "As the surface of the balloon stretches, it should look shinier and it should get more translucent" (paper 3.3). */
+#include "sim/sim.h"
+
+#include <math.h>
+
+static const struct sim_balloon *balloon_of(const struct sim *sim, uint32_t triangle)
+{
+    const struct sim_balloon *b = sim->balloons;
+    while (triangle >= b->triangle_end)
+        b++;
+    return b;
+}
+
+/* A triangle's stretch L is the mean length of its three edges over their mean rest length. Rubber keeps its volume, so
+ * the film thins as 1/L^2, and by the law of Beer and Lambert its transmittance 1 - opacity becomes the rest's to the
+ * power 1/L^2. The highlight's exponent grows as L^4: the bumps of the skin flatten. */
+void sim_material(const struct sim *sim, float *opacity, float *shininess)
+{
+    for (uint32_t t = 0; t < sim->triangle_count; t++) {
+        const struct scene_balloon *skin = balloon_of(sim, t)->scene;
+        double length = 0, rest = 0;
+        for (int k = 0; k < 3; k++) {
+            length += sim->length[sim->triangle_edge[t][k]];
+            rest += sim->rest_length[sim->triangle_edge[t][k]];
+        }
+        const double stretch = rest > 0 ? fmax(length / rest, 1) : 1;
+        opacity[t] = (float)(1 - pow(1 - skin->opacity, 1 / (stretch * stretch)));
+        shininess[t] = (float)fmin(skin->shininess * pow(stretch, 4), 1000);
+    }
+}

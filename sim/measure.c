@@ -1,0 +1,137 @@
+/* What the log tells about a state. */
+#include "common/hash.h"
+#include "common/vec3.h"
+#include "sim/sim.h"
+
+#include <string.h>
+
+/* Pieces are a forest over the edges, in which each active triangle joins its three: two triangles hang together where
+ * they share an edge. */
+static uint32_t root_of(uint32_t *parent, uint32_t e)
+{
+    while (parent[e] != e)
+        e = parent[e] = parent[parent[e]];
+    return e;
+}
+
+static void join(uint32_t *parent, uint32_t a, uint32_t b)
+{
+    a = root_of(parent, a);
+    b = root_of(parent, b);
+    parent[a < b ? b : a] = a < b ? a : b;
+}
+
+static double triangle_area(const struct sim *sim, uint32_t t)
+{
+    const uint32_t *p = sim->triangle_point[t];
+    double twice[3];
+    vec3_triangle(sim->position[p[0]], sim->position[p[1]], sim->position[p[2]], twice);
+    return vec3_length(twice) / 2;
+}
+
+static void measure_skin(struct sim *sim, struct sim_measures *m)
+{
+    for (uint32_t e = 0; e < sim->edge_count; e++) {
+        sim->piece[e] = e;
+        sim->piece_area[e] = -1; /* no triangle has been counted here */
+    }
+    for (uint32_t t = 0; t < sim->triangle_count; t++)
+        if (sim->triangle_active[t]) {
+            join(sim->piece, sim->triangle_edge[t][0], sim->triangle_edge[t][1]);
+            join(sim->piece, sim->triangle_edge[t][0], sim->triangle_edge[t][2]);
+        }
+    for (uint32_t t = 0; t < sim->triangle_count; t++) {
+        if (!sim->triangle_active[t])
+            continue;
+        double *piece_area = &sim->piece_area[root_of(sim->piece, sim->triangle_edge[t][0])];
+        const double area = triangle_area(sim, t);
+        m->pieces += *piece_area < 0;
+        *piece_area = fmax(*piece_area, 0) + area;
+        m->largest_piece_area = fmax(m->largest_piece_area, *piece_area);
+        m->area += area;
+        m->triangles_active++;
+    }
+}
+
+static bool has_skin(const struct sim *sim, uint32_t p)
+{
+    return vec3_dot(sim->normal[p], sim->normal[p]) > 0;
+}
+
+/* The mean of the points that carry skin; returns how many do. */
+static uint32_t skin_centre(const struct sim *sim, const struct sim_balloon *b, double centre[3])
+{
+    uint32_t count = 0;
+    for (int i = 0; i < 3; i++)
+        centre[i] = 0;
+    for (uint32_t p = b->point_begin; p < b->point_end; p++)
+        if (has_skin(sim, p)) {
+            count++;
+            for (int i = 0; i < 3; i++)
+                centre[i] += sim->position[p][i];
+        }
+    for (int i = 0; i < 3 && count; i++)
+        centre[i] /= count;
+    return count;
+}
+
+/* Six times the volume between a triangle and a place. */
+static double cone(const struct sim *sim, uint32_t t, const double place[3])
+{
+    double a[3], b[3], c[3], cross[3];
+    vec3_sub(sim->position[sim->triangle_point[t][0]], place, a);
+    vec3_sub(sim->position[sim->triangle_point[t][1]], place, b);
+    vec3_sub(sim->position[sim->triangle_point[t][2]], place, c);
+    vec3_cross(b, c, cross);
+    return vec3_dot(a, cross);
+}
+
+/* Returns how many points carry skin, and adds their distances from their mean to m->mean_radius. */
+static uint32_t measure_shape(const struct sim *sim, const struct sim_balloon *b, struct sim_measures *m)
+{
+    double centre[3];
+    const uint32_t count = skin_centre(sim, b, centre);
+    for (uint32_t p = b->point_begin; p < b->point_end; p++)
+        if (has_skin(sim, p))
+            m->mean_radius += vec3_distance(sim->position[p], centre);
+    for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++)
+        if (sim->triangle_active[t])
+            m->volume += cone(sim, t, centre) / 6;
+    return count;
+}
+
+static void measure_edges(const struct sim *sim, struct sim_measures *m)
+{
+    for (uint32_t e = 0; e < sim->edge_count; e++)
+        if (sim->edge_active[e]) {
+            const double stretched = sim->length[e] - sim->rest_length[e];
+            m->elastic_energy += sim->current_spring_const[e] * stretched * stretched / 2;
+            if (sim->rest_length[e] > 0)
+                m->max_stretch = fmax(m->max_stretch, sim->length[e] / sim->rest_length[e]);
+            m->edges_active++;
+        }
+}
+
+struct sim_measures sim_measure(struct sim *sim)
+{
+    struct sim_measures m = {0};
+    uint32_t count = 0;
+    measure_skin(sim, &m);
+    measure_edges(sim, &m);
+    for (size_t i = 0; i < sim->balloon_count; i++)
+        count += measure_shape(sim, &sim->balloons[i], &m);
+    if (count > 0)
+        m.mean_radius /= count;
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        m.kinetic_energy += sim->mass[p] * vec3_dot(sim->velocity[p], sim->velocity[p]) / 2;
+    return m;
+}
+
+uint64_t sim_hash(const struct sim *sim)
+{
+    uint64_t hash = hash_bytes(HASH_START, &sim->time, sizeof sim->time);
+    hash = hash_bytes(hash, sim->position, sim->point_count * sizeof *sim->position);
+    hash = hash_bytes(hash, sim->velocity, sim->point_count * sizeof *sim->velocity);
+    hash = hash_bytes(hash, sim->edge_active, sim->edge_count);
+    return hash_bytes(hash, sim->triangle_active, sim->triangle_count);
+}
