@@ -135,6 +135,28 @@ void camera_projection(const struct camera_eye *eye, double nearest, double fart
         matrix[i] = (float)m[i];
 }
 
+static int pixel(double at, int size)
+{
+    return !(at > 0) ? 0 : at < size ? (int)at : size;
+}
+
+void camera_pixels(const struct render_view *view, const struct camera_eye *eye, const double low[2],
+                   const double high[2], double nearest, double farthest, int box[4])
+{
+    const int size[2] = {eye->width, view->height};
+    const double shift[2] = {eye->shear, 0}, offset[2] = {eye->offset, 0};
+    for (int i = 0; i < 2; i++) {
+        double near_shift = offset[i] / nearest, far_shift = offset[i] / farthest;
+        double from = low[i] - fmax(near_shift, far_shift) - shift[i];
+        double to = high[i] - fmin(near_shift, far_shift) - shift[i];
+        int first = pixel((from / eye->half_width[i] + 1) / 2 * size[i] - 1, size[i]);
+        int last = pixel((to / eye->half_width[i] + 1) / 2 * size[i] + 2, size[i]);
+        box[i] = first;
+        box[2 + i] = last > first ? last - first : 0;
+    }
+    box[0] += eye->left;
+}
+
 /* The distance from the box's middle at which its corners are within the tangents `half`. Seen from an eye at
  * k d beside the axis through a window shared at distance d, the corner a beside and c before the middle
  * appears at (a + k c) / (d - c): so d >= c + |a + k c| / half for either eye. */

@@ -95,7 +95,7 @@ void draw_close(struct draw *draw, const struct gl *gl)
     *draw = (struct draw){0};
 }
 
-static void upload(const struct draw *draw, const struct gl *gl, const struct geometry *g)
+void draw_upload(const struct draw *draw, const struct gl *gl, const struct geometry *g)
 {
     gl->BindVertexArray(draw->arrays);
     gl->BindBuffer(GL_ARRAY_BUFFER, draw->vertices);
@@ -105,9 +105,8 @@ static void upload(const struct draw *draw, const struct gl *gl, const struct ge
                    g->indices.items, GL_STREAM_DRAW);
 }
 
-static void draw_backdrop(const struct draw *draw, const struct gl *gl, const struct render_view *view)
+static void draw_backdrop(const struct draw *draw, const struct gl *gl)
 {
-    gl->Viewport(0, 0, view->width, view->height);
     gl->Disable(GL_DEPTH_TEST);
     gl->Disable(GL_BLEND);
     gl->UseProgram(draw->backdrop);
@@ -129,11 +128,13 @@ static void draw_shadow(const struct draw *draw, const struct gl *gl, const floa
     gl->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
-/* Opaque triangles hide by depth; translucent ones are hidden by those, and lie over one another in their
- * order. Colours come multiplied by opacity, so that a highlight stays whole on the clearest skin. */
+/* The depth of the whole framebuffer, or of the scissor's part, begins anew. Opaque triangles hide by depth; translucent ones are hidden by those, and lie over one another in their
+ * order. The shader gives the light to add and the share of each colour to keep of what lies behind. */
 static void draw_skins(const struct draw *draw, const struct gl *gl, const float projection[16],
                        const float eye[3], const struct geometry *g)
 {
+    gl->DepthMask(GL_TRUE);
+    gl->Clear(GL_DEPTH_BUFFER_BIT);
     gl->Enable(GL_DEPTH_TEST);
     gl->Disable(GL_BLEND);
     gl->UseProgram(draw->skin);
@@ -146,30 +147,23 @@ static void draw_skins(const struct draw *draw, const struct gl *gl, const float
         return;
     gl->DepthMask(GL_FALSE);
     gl->Enable(GL_BLEND);
-    gl->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    gl->BlendFunc(GL_ONE, GL_SRC1_COLOR);
     gl->DrawElements(GL_TRIANGLES, (GLsizei)(3 * g->translucent.count), GL_UNSIGNED_INT,
                      (const void *)(3 * g->opaque.count * sizeof(uint32_t)));
     gl->DepthMask(GL_TRUE);
 }
 
-void draw_frame(const struct draw *draw, const struct gl *gl, const struct render_view *view,
-                const struct geometry *geometry)
+void draw_eye(const struct draw *draw, const struct gl *gl, const struct render_view *view,
+              const struct camera_eye *eye, const struct geometry *geometry, bool skins)
 {
-    struct camera_eye eyes[2];
-    int count = camera_eyes(view, eyes);
-    upload(draw, gl, geometry);
-    gl->Disable(GL_SCISSOR_TEST);
+    float projection[16];
+    const float at[3] = {(float)eye->offset, 0, 0};
+    camera_projection(eye, geometry->nearest, geometry->farthest, projection);
+    gl->Viewport(eye->left, 0, eye->width, view->height);
     gl->Enable(GL_FRAMEBUFFER_SRGB);
-    gl->DepthMask(GL_TRUE);
-    gl->Clear(GL_DEPTH_BUFFER_BIT);
-    draw_backdrop(draw, gl, view);
-    for (int i = 0; i < count; i++) {
-        float projection[16];
-        const float eye[3] = {(float)eyes[i].offset, 0, 0};
-        camera_projection(&eyes[i], geometry->nearest, geometry->farthest, projection);
-        gl->Viewport(eyes[i].left, 0, eyes[i].width, view->height);
-        if (geometry->shadow.visible)
-            draw_shadow(draw, gl, projection, &geometry->shadow);
-        draw_skins(draw, gl, projection, eye, geometry);
-    }
+    draw_backdrop(draw, gl);
+    if (geometry->shadow.visible)
+        draw_shadow(draw, gl, projection, &geometry->shadow);
+    if (skins)
+        draw_skins(draw, gl, projection, at, geometry);
 }

@@ -4,7 +4,8 @@
  *
  *     struct draw draw = {0};
  *     if (draw_open(&draw, &gl, err)) ...
- *     draw_frame(&draw, &gl, &view, &geometry);     for each frame
+ *     draw_upload(&draw, &gl, &geometry);                         for each frame
+ *     draw_eye(&draw, &gl, &view, &eye, &geometry, true);         for each eye
  *     draw_close(&draw, &gl);
  */
 #ifndef RENDER_DRAW_H
@@ -25,8 +26,11 @@ struct draw {
 enum status draw_open(struct draw *draw, const struct gl *gl, struct error *err);
 void draw_close(struct draw *draw, const struct gl *gl);
 
-/* Backdrop, shadow and skins for each eye of the view. */
-void draw_frame(const struct draw *draw, const struct gl *gl, const struct render_view *view,
-                const struct geometry *geometry);
+/* Hands the geometry over, once a frame. */
+void draw_upload(const struct draw *draw, const struct gl *gl, const struct geometry *geometry);
+
+/* Backdrop and shadow, and the skins if wanted, as one eye sees them, within the scissor's rectangle. */
+void draw_eye(const struct draw *draw, const struct gl *gl, const struct render_view *view,
+              const struct camera_eye *eye, const struct geometry *geometry, bool skins);
 
 #endif

@@ -176,6 +176,19 @@ static uint32_t nearness_of(const double square_distance)
     return ~bits;
 }
 
+/* Widens what is in sight by a corner; one beside or behind the eye may be seen anywhere. */
+static void see_corner(struct geometry *g, const float position[3])
+{
+    double distance = -position[2];
+    g->nearest = fmin(g->nearest, distance);
+    g->farthest = fmax(g->farthest, distance);
+    for (int i = 0; i < 2; i++) {
+        double at = position[i] / distance;
+        g->low[i] = distance > nearest_drawn ? fmin(g->low[i], at) : -INFINITY;
+        g->high[i] = distance > nearest_drawn ? fmax(g->high[i], at) : INFINITY;
+    }
+}
+
 static void add_triangle(struct building *b, uint32_t t)
 {
     struct geometry *g = b->geometry;
@@ -191,8 +204,7 @@ static void add_triangle(struct building *b, uint32_t t)
         opaque = opaque && vertex->opacity >= opaque_from;
         for (int i = 0; i < 3; i++)
             middle[i] += vertex->position[i] / 3.0;
-        g->nearest = fmin(g->nearest, -vertex->position[2]);
-        g->farthest = fmax(g->farthest, -vertex->position[2]);
+        see_corner(g, vertex->position);
     }
     triangle.nearness = nearness_of(vec3_dot(middle, middle));
     if (opaque)
@@ -274,6 +286,10 @@ enum status geometry_build(struct geometry *g, const struct render_view *view,
     g->vertices.count = g->opaque.count = g->translucent.count = 0;
     g->nearest = INFINITY;
     g->farthest = 0;
+    for (int i = 0; i < 2; i++) {
+        g->low[i] = INFINITY;
+        g->high[i] = -INFINITY;
+    }
     for (size_t i = 0; i < skin_count; i++) {
         struct building b = {.geometry = g, .space = &space, .skin = &skins[i], .skin_number = i};
         enum status status = add_skin(&b, err);

@@ -51,6 +51,7 @@ struct geometry {
         float *items;
         size_t count, capacity;
     } sums;                   /* of opacity, shininess, triangles for each point of a skin */
+    double low[2], high[2];   /* x and y at distance 1 between which every corner appears */
     double nearest, farthest; /* distances before the camera that hold every triangle in sight */
     struct geometry_shadow shadow;
 };

@@ -49,6 +49,34 @@ enum status render_open(int width, int height, struct render **result, struct er
     return STATUS_OK;
 }
 
+/* Smooth edges are costly: only the part of the picture that the skins may meet is drawn with more than one
+ * sample a pixel; the backdrop around it needs none. */
+static void draw_smoothly(struct render *render, const struct render_view *view, const struct camera_eye *eye)
+{
+    const struct gl *gl = &render->gl;
+    const struct geometry *g = &render->geometry;
+    int box[4];
+    camera_pixels(view, eye, g->low, g->high, g->nearest, g->farthest, box);
+    gl->Disable(GL_SCISSOR_TEST);
+    target_bind_resolved(&render->target, gl);
+    draw_eye(&render->draw, gl, view, eye, g, false);
+    target_bind_drawn(&render->target, gl);
+    gl->Enable(GL_SCISSOR_TEST);
+    gl->Scissor(box[0], box[1], box[2], box[3]);
+    draw_eye(&render->draw, gl, view, eye, g, true);
+    gl->Disable(GL_SCISSOR_TEST);
+    target_resolve(&render->target, gl, box);
+}
+
+static void draw_plainly(struct render *render, const struct render_view *view, const struct camera_eye *eye)
+{
+    const struct gl *gl = &render->gl;
+    gl->Enable(GL_SCISSOR_TEST);
+    gl->Scissor(eye->left, 0, eye->width, view->height);
+    draw_eye(&render->draw, gl, view, eye, &render->geometry, true);
+    gl->Disable(GL_SCISSOR_TEST);
+}
+
 enum status render_draw(struct render *render, const struct render_view *view,
                         const struct render_skin *skins, size_t skin_count, struct image *out,
                         struct error *err)
@@ -64,7 +92,15 @@ enum status render_draw(struct render *render, const struct render_view *view,
         status = target_bind(&render->target, &render->gl, view->width, view->height, samples_of(view), err);
     if (status)
         return status;
-    draw_frame(&render->draw, &render->gl, view, &render->geometry);
+    struct camera_eye eyes[2];
+    int count = camera_eyes(view, eyes);
+    draw_upload(&render->draw, &render->gl, &render->geometry);
+    for (int i = 0; i < count; i++) {
+        if (view->smooth_edges)
+            draw_smoothly(render, view, &eyes[i]);
+        else
+            draw_plainly(render, view, &eyes[i]);
+    }
     return target_read(&render->target, &render->gl, out, err);
 }
 

@@ -22,10 +22,13 @@ const char shader_skin_vertex[] = "#version 330 core\n"
 
 /*
  * Rubber in a small studio that is fixed to the camera: a large key light above on the left, a weak fill from
- * the right, light from the room, and a little that comes through thin skin from behind. Both sides are lit.
+ * the right, light from the room, and some that comes through thin skin from behind. Both sides are lit.
+ * Stretched rubber scatters more than it absorbs: it pales as it thins.
  *
  * Opacity is that of the skin seen straight on. Seen at an angle light takes a path longer by 1 / cos of the
- * refracted angle (Snell, index 1.52), so by Beer and Lambert what passes is (1 - opacity)^path.
+ * refracted angle (Snell, index 1.52), so by Beer and Lambert what passes is (1 - opacity)^path. A skin holds
+ * back its own colour less than the others; grey skin, none more than another. What is drawn is the light that
+ * the skin adds and, for each colour, the share that passes it from behind.
  *
  * The highlight is the mirror image of two soft boxes, blurred as a Phong lobe of this exponent blurs it: a
  * Gaussian of standard deviation 1/sqrt(exponent), of which a box is a product of differences of the error
@@ -36,7 +39,8 @@ const char shader_skin_fragment[] =
     "#version 330 core\n"
     "in vec3 skin_normal, skin_to_eye, skin_colour;\n"
     "in float skin_opacity, skin_shininess;\n"
-    "out vec4 light;\n"
+    "layout(location = 0, index = 0) out vec4 light;\n"
+    "layout(location = 0, index = 1) out vec4 passing;\n"
     "const vec3 key = vec3(-0.5926, 0.6308, 0.5009);\n"
     "const vec3 key_across = vec3(0.6455, 0.0, 0.7638);\n"
     "const vec3 key_along = vec3(0.4818, 0.7760, -0.4072);\n"
@@ -67,13 +71,17 @@ const char shader_skin_fragment[] =
     "        facing = 0.02;\n"
     "    }\n"
     "    float path = inversesqrt(1.0 - (1.0 - facing * facing) / 2.31);\n"
-    "    float opacity = 1.0 - pow(max(1.0 - skin_opacity, 0.0), path);\n"
+    "    vec3 hold = 1.0 + 1.4 * (dot(skin_colour, vec3(1.0 / 3.0)) - skin_colour);\n"
+    "    vec3 passes = pow(vec3(max(1.0 - skin_opacity, 1e-6)), path * hold);\n"
+    "    if (skin_opacity > 0.999)\n"
+    "        passes = vec3(0.0);\n"
     "    float at_key = dot(n, key);\n"
     "    float lit = max(0.25 + 0.75 * at_key, 0.0);\n"
     "    float fill = max(dot(n, vec3(0.8, -0.1, 0.6)), 0.0);\n"
     "    float room = 0.5 + 0.5 * n.y;\n"
     "    float through = (1.0 - 0.6 * skin_opacity) * max(0.25 - 0.75 * at_key, 0.0);\n"
-    "    float body = 0.78 * lit * lit + 0.12 * fill + mix(0.10, 0.30, room) + 0.35 * through;\n"
+    "    float body = 0.78 * lit * lit + 0.12 * fill + mix(0.10, 0.30, room) + 0.6 * through;\n"
+    "    vec3 pale = mix(skin_colour, vec3(1.0), 0.1 * (1.0 - skin_opacity));\n"
     "    float rest = 1.0 - facing;\n"
     "    float fresnel = 0.043 + 0.957 * rest * rest * rest * rest * rest;\n"
     "    float gloss = skin_shininess / (skin_shininess + 12.0);\n"
@@ -83,9 +91,10 @@ const char shader_skin_fragment[] =
     "                  7.0 * box(ray, strip, strip_across, strip_along, vec2(0.14, 0.8), blur);\n"
     "    float around = mix(0.25, 0.75, 0.5 + 0.5 * ray.y) * smoothstep(-1.0, 0.3, ray.z);\n"
     "    float mirror = gloss * min(fresnel, 0.5) * (boxes + around);\n"
-    "    vec3 seen = skin_colour * body * opacity + mirror;\n"
+    "    vec3 seen = pale * body * (1.0 - passes) + mirror;\n"
     "    vec3 above = max(seen - 0.62, 0.0);\n"
-    "    light = vec4(min(seen, 0.62) + 0.38 * (1.0 - exp(-above / 0.38)), opacity);\n"
+    "    light = vec4(min(seen, 0.62) + 0.38 * (1.0 - exp(-above / 0.38)), 1.0);\n"
+    "    passing = vec4(passes, 0.0);\n"
     "}\n";
 
 /* One triangle over the whole picture; grey from the horizon up and down. */

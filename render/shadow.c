@@ -8,9 +8,9 @@
 
 #include <string.h>
 
-static const double spread = 0.35;  /* standard deviation gained for each unit of height: the light's size */
-static const double reach = 3;      /* standard deviations that are drawn */
-static const double darkest = 0.55; /* share of the light from above that the skins can take at most */
+static const double spread = 0.25; /* standard deviation gained for each unit of height: the light's size */
+static const double reach = 3;     /* standard deviations that are drawn */
+static const double darkest = 0.8; /* share of the light from above that the skins can take at most */
 static const double light_share = .5; /* of what thin skin lets through, still in its colour */
 
 struct screens {

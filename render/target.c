@@ -55,6 +55,25 @@ enum status target_bind(struct target *target, const struct gl *gl, int width, i
                      samples);
 }
 
+void target_bind_drawn(const struct target *target, const struct gl *gl)
+{
+    gl->BindFramebuffer(GL_FRAMEBUFFER, target->drawn);
+}
+
+void target_bind_resolved(const struct target *target, const struct gl *gl)
+{
+    gl->BindFramebuffer(GL_FRAMEBUFFER, target->resolved);
+}
+
+void target_resolve(const struct target *target, const struct gl *gl, const int box[4])
+{
+    int right = box[0] + box[2], top = box[1] + box[3];
+    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, target->drawn);
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, target->resolved);
+    gl->BlitFramebuffer(box[0], box[1], right, top, box[0], box[1], right, top, GL_COLOR_BUFFER_BIT,
+                        GL_NEAREST);
+}
+
 static void copy_rows(const struct target *target, struct image *out)
 {
     size_t width = (size_t)target->width;
@@ -76,12 +95,7 @@ enum status target_read(struct target *target, const struct gl *gl, struct image
         target->pixels = array_new((size_t)width * (size_t)height, 4);
     if (!target->pixels)
         return error_no_memory(err, "the picture");
-    if (target->resolved) {
-        gl->BindFramebuffer(GL_READ_FRAMEBUFFER, target->drawn);
-        gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, target->resolved);
-        gl->BlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-        gl->BindFramebuffer(GL_READ_FRAMEBUFFER, target->resolved);
-    }
+    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, target->resolved ? target->resolved : target->drawn);
     gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
     gl->ReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, target->pixels);
     copy_rows(target, out);

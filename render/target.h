@@ -14,12 +14,19 @@ struct target {
     unsigned char *pixels; /* [height][width][4] read back, the bottom row first */
 };
 
-/* Makes it that size and binds it; kept as it is where it has that size already. `{0}` is an empty target.
+/* Makes it that size and binds what is drawn into; kept where it is so already. `{0}` is an empty target.
  * Errors: STATUS_NO_MEMORY, STATUS_RESOURCE (more than this OpenGL can draw); then it is empty. */
 enum status target_bind(struct target *target, const struct gl *gl, int width, int height, int samples,
                         struct error *err);
 
-/* Copies what was drawn to the image, which has the target's size. Errors: STATUS_NO_MEMORY. */
+/* With several samples a pixel: binds the picture of one sample that is read in the end, so that what needs
+ * no smooth edges is drawn there; binds what is drawn into again; and copies a box (x, y from below, width,
+ * height) of that over. */
+void target_bind_drawn(const struct target *target, const struct gl *gl);
+void target_bind_resolved(const struct target *target, const struct gl *gl);
+void target_resolve(const struct target *target, const struct gl *gl, const int box[4]);
+
+/* Copies the picture to the image, which has the target's size. Errors: STATUS_NO_MEMORY. */
 enum status target_read(struct target *target, const struct gl *gl, struct image *out, struct error *err);
 
 void target_clear(struct target *target, const struct gl *gl);
