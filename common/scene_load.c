@@ -178,6 +178,16 @@ static enum status read_scene(config_t *config, const struct scene_source *sourc
     return STATUS_OK;
 }
 
+/* Where the file is not libconfig's grammar, with what would be right. */
+static enum status refuse_grammar(const config_t *config, const char *path, struct error *err)
+{
+    const char *file = config_error_file(config) ? config_error_file(config) : path;
+    const bool mixed = strstr(config_error_text(config), "mismatched element");
+    return error_set(
+        err, STATUS_INPUT, "%s:%d: %s; %s", file, config_error_line(config), config_error_text(config),
+        mixed ? "write [0.0, 1.0, 2.5] or (0, 1, 2.5)" : "a scene is made of lines like key = value;");
+}
+
 static enum status parse_file(const char *path, const struct bytes *text, struct scene *scene,
                               struct error *err)
 {
@@ -196,9 +206,7 @@ static enum status parse_file(const char *path, const struct bytes *text, struct
     if (strlen((const char *)text->data) != text->size)
         status = error_set(err, STATUS_INPUT, "%s: is not a scene file: it is not text", path);
     else if (!config_read_string(&config, (const char *)text->data))
-        status = error_set(err, STATUS_INPUT, "%s:%d: %s; a scene is made of lines like key = value;",
-                           config_error_file(&config) ? config_error_file(&config) : path,
-                           config_error_line(&config), config_error_text(&config));
+        status = refuse_grammar(&config, path, err);
     else
         status = read_scene(&config, &source, scene, err);
     config_destroy(&config);

@@ -128,6 +128,20 @@ static enum status read_row(const struct scene_field *field, const config_settin
     return STATUS_OK;
 }
 
+static enum status read_size(const struct scene_field *field, const config_setting_t *value,
+                             const struct scene_source *source, int out[2], struct error *err)
+{
+    double size[2];
+    enum status status = read_row(field, value, 2, "[width, height]", source, size, err);
+    for (int i = 0; i < 2 && !status; i++) {
+        if (size[i] != floor(size[i]))
+            return scene_refuse(source, value, err, "%s is %g; it must be a whole number", field->key,
+                                size[i]);
+        out[i] = (int)size[i];
+    }
+    return status;
+}
+
 static enum status read_pairs(const struct scene_field *field, const config_setting_t *value,
                               const struct scene_source *source, struct scene_profile *out, struct error *err)
 {
@@ -190,8 +204,6 @@ enum status scene_read_value(const struct scene_field *field, const config_setti
                              const struct scene_source *source, void *block, struct error *err)
 {
     void *member = (char *)block + field->offset;
-    double size[2];
-    enum status status;
     switch (field->type) {
     case SCENE_NUMBER:
         return scene_read_number(field, value, source, member, err);
@@ -206,10 +218,7 @@ enum status scene_read_value(const struct scene_field *field, const config_setti
     case SCENE_PAIRS:
         return read_pairs(field, value, source, member, err);
     case SCENE_SIZE:
-        status = read_row(field, value, 2, "[width, height]", source, size, err);
-        for (int i = 0; i < 2 && !status; i++)
-            ((int *)member)[i] = (int)size[i];
-        return status;
+        return read_size(field, value, source, member, err);
     }
     return STATUS_OK;
 }
@@ -221,6 +230,9 @@ config_setting_t *scene_parse_value(config_t *config, const char *text)
     if (!line)
         return NULL;
     snprintf(line, room, "v = %s;", text);
+    for (char *c = line; *c && !strchr(text, '"');
+         c++) /* [ ] would want all numbers alike: [0, 1, 2.5] is refused */
+        *c = *c == '[' ? '(' : *c == ']' ? ')' : *c;
     bool good = config_read_string(config, line);
     if (!good && !strpbrk(text, "\"\\\n")) {
         snprintf(line, room, "v = \"%s\";", text);

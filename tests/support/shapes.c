@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-
 /* The icosahedron: the even permutations of (0, +-1, +-golden ratio), and the triples of them that are neighbours. */
 static void icosahedron(struct mesh *mesh)
 {
@@ -57,7 +56,8 @@ static void refine(struct mesh *mesh)
         uint32_t m[3];
         for (int k = 0; k < 3; k++)
             m[k] = mesh->point_count + mesh->triangle_edge[t][k];
-        const uint32_t four[4][3] = {{p[0], m[0], m[2]}, {m[0], p[1], m[1]}, {m[2], m[1], p[2]}, {m[0], m[1], m[2]}};
+        const uint32_t four[4][3] = {
+            {p[0], m[0], m[2]}, {m[0], p[1], m[1]}, {m[2], m[1], p[2]}, {m[0], m[1], m[2]}};
         memcpy(fine.triangle[4 * (size_t)t], four, sizeof four);
     }
     mesh_clear(mesh);

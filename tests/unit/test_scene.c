@@ -1,0 +1,193 @@
+/* A scene says what it means, or is refused with its line and what would be right. */
+#include "check.h"
+#include "common/scene.h"
+#include "common/scene_fields.h"
+
+#include <unistd.h>
+
+static char path[] = "/tmp/balloon-scene-XXXXXX";
+
+static void write_scene(const char *text)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+/* Loads and checks this text. */
+static enum status load(const char *text, struct scene *scene, struct error *err)
+{
+    write_scene(text);
+    enum status status = scene_load(path, scene, err);
+    if (!status)
+        status = scene_check(scene, err);
+    if (status)
+        scene_clear(scene);
+    return status;
+}
+
+static void a_scene_with_one_mesh_has_the_papers_settings(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct scene scene = {0};
+    assert_ok(load("balloons = ( { mesh = \"fox.ply\"; } );", &scene, &err), &err);
+    assert_string_equal(scene.balloons[0].mesh, "/tmp/fox.ply"); /* beside the scene file */
+    assert_near(scene.balloons[0].spring, 20, 0);
+    assert_near(scene.balloons[0].damping, 1, 0);
+    assert_near(scene.balloons[0].pressure, 10, 0);
+    assert_near(scene.balloons[0].threshold, 2, 0);
+    assert_near(scene.time.step, 0.025, 0);
+    assert_false(scene.balloons[0].rip.on);
+    assert_false(scene.balloons[0].spring_by_height.on);
+    scene_clear(&scene);
+
+    assert_ok(scene_from_mesh("fox.ply", &scene, &err), &err);
+    assert_ok(scene_check(&scene, &err), &err);
+    assert_string_equal(scene.balloons[0].mesh, "fox.ply");
+    assert_near(scene.balloons[0].pressure, 10, 0);
+    scene_clear(&scene);
+}
+
+static void every_kind_of_value_is_read(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct scene scene = {0};
+    assert_ok(
+        load(
+            "time = { step = 1; end = 2.5; integrator = \"explicit-euler\"; };\n"
+            "view = { size = [640, 400]; camera = (0, 1, 2.5); stereo = \"crossed\"; };\n"
+            "balloons = ( { mesh = \"/a.ply\"; spring_by_height = { profile = ( (0, 2), (1.0, 1.5) ); }; },\n"
+            "             { mesh = \"b.stl\"; rip = { at = 1.5; length = 2; }; } );\n"
+            "schedule = ( { at = 2.0; pressure = 12; balloon = 1; }, { at = 1; step = 0.5; } );\n",
+            &scene, &err),
+        &err);
+    assert_near(scene.time.step, 1, 0); /* a whole number is a number */
+    assert_string_equal(scene_integrator_names[scene.time.integrator], "explicit-euler");
+    assert_int_equal(scene.view.size[1], 400);
+    assert_int_equal(scene.view.stereo, SCENE_CROSSED);
+    assert_near(scene.view.camera[2], 2.5, 0);
+    assert_int_equal(scene.balloon_count, 2);
+    assert_string_equal(scene.balloons[0].mesh, "/a.ply");
+    assert_true(scene.balloons[0].spring_by_height.on);
+    assert_near(scene_profile_at(&scene.balloons[0].spring_by_height.profile, 0.5), 1.75, 1e-15);
+    assert_true(scene.balloons[1].rip.on);
+    assert_near(scene.balloons[1].rip.length, 2, 0);
+    assert_int_equal(scene.schedule_count, 2); /* in the order of time */
+    assert_near(scene.schedule[0].at, 1, 0);
+    assert_string_equal(scene.schedule[1].change[0].field->key, "pressure");
+    assert_int_equal(scene.schedule[1].balloon, 1);
+    scene_clear(&scene);
+}
+
+static void what_is_wrong_is_named_with_its_line(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *message;
+    } cases[] = {
+        {"balloons = ( { mesh = \"a.ply\";\n presure = 10.0; } );",
+         ":2: unknown key `presure` in balloons (did you mean `pressure`?)"},
+        {"tim = { step = 1; };", ":1: unknown key `tim` (did you mean `time`?)"},
+        {"time = { step = \"fast\"; };", ":1: step must be a number in s"},
+        {"time = {\n\n step = 0; };", ":3: step is 0; it must be from 1e-09 to 1e+06 s"},
+        {"time = { step = -1.0; };", ":1: step is -1"},
+        {"time = { step = 1e300; };", ":1: step is 1e+300"},
+        {"time = { integrator = \"euler\"; };", "it must be one of \"symplectic-euler\", \"explicit-euler\""},
+        {"time = 3;", ":1: time must be a block"},
+        {"view = { size = [640]; };", ":1: size must be 2 numbers"},
+        {"view = { size = (640.5, 480); };", ":1: size is 640.5; it must be a whole number"},
+        {"view = { camera = [0, 1, 2.5]; };", ":1: mismatched element type in array; write [0.0, 1.0, 2.5]"},
+        {"balloons = { mesh = \"a.ply\"; };", ":1: balloons must be a list"},
+        {"balloons = ( { mesh = 3; } );", ":1: mesh must be a name in quotes"},
+        {"balloons = ( { } );", "balloons[0] has no mesh"},
+        {"time = { };", "has no balloon"},
+        {"balloons = ( { mesh = \"a.ply\"; spring_by_height = { }; } );", "give profile"},
+        {"balloons = ( { mesh = \"a.ply\"; spring_by_height = { profile = ( (1, 1), (1, 2) ); }; } );",
+         "must rise"},
+        {"balloons = ( { mesh = \"a.ply\"; rip = { place = [0, 1, 0]; direction = [0, 2, 0]; }; } );",
+         "two different directions"},
+        {"balloons = ( { mesh = \"a.ply\"; } );\nschedule = ( { at = 1; spring = 2; } );",
+         ":2: spring cannot change"},
+        {"balloons = ( { mesh = \"a.ply\"; } );\nschedule = ( { at = 1; balloon = 1; } );",
+         "the balloons are 0 to 0"},
+        {"time = { step = nan; };", ":1: syntax error"},
+        {"time = { step = 1 ", ":1: syntax error"},
+        {"time = { step = 1; step = 2; };", ":1: duplicate setting name"},
+        {"", "has no balloon"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct error err = {0};
+        struct scene scene = {0};
+        assert_refused(load(cases[i].text, &scene, &err), STATUS_INPUT, cases[i].message, &err);
+        assert_null(scene.balloons);
+    }
+}
+
+static void set_changes_any_key_by_its_path(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct scene scene = {0};
+    assert_ok(load("balloons = ( { mesh = \"a.ply\"; } );\nschedule = ( { at = 1; } );", &scene, &err), &err);
+    assert_ok(scene_set(&scene, "balloons[0].pressure=12", &err), &err);
+    assert_ok(scene_set(&scene, "view.size=[100,50]", &err), &err);
+    assert_ok(scene_set(&scene, "view.stereo=crossed", &err), &err);
+    assert_ok(scene_set(&scene, "balloons[0].mesh=some where/b.ply", &err), &err);
+    assert_ok(scene_set(&scene, "balloons[0].rip.at=3", &err), &err);
+    assert_ok(scene_set(&scene, "schedule[0].step=0.5", &err), &err);
+    assert_near(scene.balloons[0].pressure, 12, 0);
+    assert_ok(scene_set(&scene, "view.camera=[0, 1, 2.5]", &err), &err);
+    assert_int_equal(scene.view.size[0], 100);
+    assert_near(scene.view.camera[2], 2.5, 0);
+    assert_int_equal(scene.view.stereo, SCENE_CROSSED);
+    assert_string_equal(scene.balloons[0].mesh, "some where/b.ply");
+    assert_true(scene.balloons[0].rip.on);
+    assert_near(scene.schedule[0].change[0].value, 0.5, 0);
+
+    assert_refused(scene_set(&scene, "balloons[1].pressure=12", &err), STATUS_INPUT, "balloons has 1 entries",
+                   &err);
+    assert_refused(scene_set(&scene, "balloons.pressure=12", &err), STATUS_INPUT, "balloons has 1 entries",
+                   &err);
+    assert_refused(scene_set(&scene, "balloons[0].presure=12", &err), STATUS_INPUT, "did you mean `pressure`",
+                   &err);
+    assert_refused(scene_set(&scene, "time.step=0", &err), STATUS_INPUT, "--set: step is 0", &err);
+    assert_refused(scene_set(&scene, "time.step=nan", &err), STATUS_INPUT, "step must be a number", &err);
+    assert_refused(scene_set(&scene, "time.step", &err), STATUS_INPUT, "has no value", &err);
+    assert_refused(scene_set(&scene, "time=1", &err), STATUS_INPUT, "is a block", &err);
+    assert_refused(scene_set(&scene, "step=1", &err), STATUS_INPUT, "unknown key `step`", &err);
+    assert_refused(scene_set(&scene, "time..step=1", &err), STATUS_INPUT, "is no key", &err);
+    assert_refused(scene_set(&scene, "balloons[-1].pressure=1", &err), STATUS_INPUT, "is no key", &err);
+    scene_clear(&scene);
+}
+
+static void every_default_is_within_its_own_range(void **state)
+{
+    (void)state;
+    for (size_t b = 0; b < scene_block_count; b++)
+        for (size_t i = 0; i < scene_blocks[b].field_count; i++) {
+            const struct scene_field *field = &scene_blocks[b].fields[i];
+            if (field->type == SCENE_NUMBER || field->type == SCENE_WHOLE) {
+                double standard = strtod(field->standard, NULL);
+                assert_true(standard >= field->least && standard <= field->most);
+            }
+            assert_true(*field->meaning);
+        }
+}
+
+int main(void)
+{
+    close(mkstemp(path));
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_scene_with_one_mesh_has_the_papers_settings),
+        cmocka_unit_test(every_kind_of_value_is_read),
+        cmocka_unit_test(what_is_wrong_is_named_with_its_line),
+        cmocka_unit_test(set_changes_any_key_by_its_path),
+        cmocka_unit_test(every_default_is_within_its_own_range),
+    };
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    unlink(path);
+    return failed;
+}
