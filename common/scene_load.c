@@ -266,16 +266,22 @@ static bool take_name(const char **path, char *name, size_t size, long *index)
     return **path == '\0';
 }
 
-/* The block in a list that the path names by its index; NULL when there is none. */
-static void *list_item(struct scene *scene, const struct scene_block *block, long index, struct error *err)
+/* Finds the block in a list that the path names by its index; one past the last adds one. */
+static enum status list_item(struct scene *scene, const struct scene_block *block, long index, void **item,
+                             struct error *err)
 {
-    bool balloons = !strcmp(block->name, "balloons");
-    size_t count = balloons ? scene->balloon_count : scene->schedule_count;
-    if (index >= 0 && (size_t)index < count)
-        return balloons ? (void *)&scene->balloons[index] : (void *)&scene->schedule[index];
-    error_set(err, STATUS_INPUT, "--set: %s has %zu entries, written %s[0] to %s[%zu]", block->name, count,
-              block->name, block->name, count ? count - 1 : 0);
-    return NULL;
+    const bool balloons = !strcmp(block->name, "balloons");
+    const size_t count = balloons ? scene->balloon_count : scene->schedule_count;
+    if (index < 0 || (size_t)index > count)
+        return error_set(err, STATUS_INPUT,
+                         "--set: %s has %zu entries; write %s[0] to %s[%zu], the last to add one",
+                         block->name, count, block->name, block->name, count);
+    enum status status = STATUS_OK;
+    if ((size_t)index == count)
+        status = balloons ? add_balloon(scene, err) : add_schedule(scene, err);
+    if (!status)
+        *item = balloons ? (void *)&scene->balloons[index] : (void *)&scene->schedule[index];
+    return status;
 }
 
 /* Sets one key by its path, with the value already parsed. */
@@ -294,10 +300,13 @@ static enum status set_by_path(struct scene *scene, const char *path, const conf
             return read_key(block, target, value, name, &source, err);
         if (!inner)
             return scene_refuse_name(&source, value, name, block, err);
-        if (inner->list && !(target = list_item(scene, inner, index, err)))
-            return STATUS_INPUT;
-        if (!inner->list)
+        enum status status = STATUS_OK;
+        if (inner->list)
+            status = list_item(scene, inner, index, &target, err);
+        else
             target = (char *)target + inner->offset;
+        if (status)
+            return status;
         block = inner;
         call_for(block, target);
         if (!*path)

@@ -1,6 +1,7 @@
 /*
  * The simulator: points, springs and dampers under pressure, until they burst. The paper's section 3.5.
  *
+ *     if (sim_load_meshes(&scene, meshes, reports, err)) ...
  *     struct sim sim = {0};
  *     if (sim_open(&sim, &scene, meshes, err)) ...     allocates; the scene must outlive the sim
  *     while (sim.time < scene.time.end)
@@ -111,15 +112,21 @@ struct sim {
     uint64_t steps;       /* in all */
     size_t next_change;   /* first entry of the schedule that is still to come */
     bool edges_broke;     /* since the triangles were last asked */
+    uint32_t broken;      /* edges that have let go, in all */
 
     uint32_t *piece;    /* [edge_count] for sim_measure(): an edge of the same piece */
     double *piece_area; /* [edge_count] likewise: of the piece, at its root */
     size_t bytes;       /* of all the arrays here */
 };
 
-/* Builds the tables for a checked scene; meshes[i] is balloon i's, repaired and connected (common/mesh.h). Refuses with
- * the balloon's number: meshes that are open, not a surface or not consistently wound (STATUS_INPUT), more than 2^32 - 2
- * points in all (STATUS_RANGE). On failure *sim is empty. */
+/* Reads the mesh of each balloon of a checked scene, repairs and connects it. meshes and reports have balloon_count
+ * elements, empty; on failure they may be partly filled. Refuses (STATUS_INPUT, with the file's name) what cannot be
+ * inflated: meshes that are open, no surface, or not consistently wound. An inside-out mesh is turned. */
+enum status sim_load_meshes(const struct scene *scene, struct mesh *meshes, struct mesh_report *reports,
+                            struct error *err);
+
+/* Builds the tables for a checked scene; meshes[i] is balloon i's, connected (common/mesh.h). Errors: STATUS_NO_MEMORY,
+ * STATUS_RANGE when all balloons together have more than 2^32 - 2 edges. On failure *sim is empty. */
 enum status sim_open(struct sim *sim, const struct scene *scene, const struct mesh *meshes,
                      struct error *err);
 void sim_clear(struct sim *sim);
@@ -136,9 +143,10 @@ static inline void sim_break_edge(struct sim *sim, uint32_t edge)
 {
     sim->edge_active[edge] = 0;
     sim->edges_broke = true;
+    sim->broken++;
 }
 
-/* A row of the log. */
+/* What there is to say about a state: a row of the log. */
 struct sim_measures {
     double mean_radius;    /* mean distance of the points that carry skin from their mean */
     double volume;         /* by the divergence theorem, over the active triangles, about that mean */
@@ -151,6 +159,17 @@ struct sim_measures {
     uint32_t pieces; /* of active triangles, joined where they share an edge */
 };
 struct sim_measures sim_measure(struct sim *sim);
+
+/* The log: tab-separated, a header, a row a call. It replaces path when it is closed, and not before. */
+struct sim_log;
+enum status sim_log_open(const char *path, struct sim_log **log, struct error *err);
+void sim_log_row(struct sim_log *log, struct sim *sim);
+enum status sim_log_close(struct sim_log *log,
+                          struct error *err); /* frees it, whatever it returns; NULL is fine */
+void sim_log_abandon(struct sim_log *log);    /* NULL is fine */
+
+/* The skin that is left, as a mesh of its own. */
+enum status sim_skin(const struct sim *sim, struct mesh *mesh, struct error *err);
 
 /* Opacity and highlight exponent of each triangle from its stretch (material.c). Arrays of triangle_count, the
  * caller's. */

@@ -1,0 +1,90 @@
+/* The balloons' meshes, from file to something that can hold air. */
+#include "common/vec3.h"
+#include "sim/sim.h"
+
+/* Air leaks through a boundary, and an edge of three triangles has no inside: say where. */
+static enum status check_surface(const char *path, const struct mesh *mesh, const struct mesh_report *report,
+                                 struct error *err)
+{
+    const char *wrong = NULL, *right = NULL;
+    const uint32_t *edge = NULL;
+    size_t count = 0;
+    if (report->overfull_edges) {
+        wrong = "has more than two triangles";
+        right = "a balloon must be one surface";
+        edge = report->first_overfull;
+        count = report->overfull_edges;
+    } else if (report->boundary_edges) {
+        wrong = "has one triangle only";
+        right = "a balloon must be closed to hold air";
+        edge = report->first_boundary;
+        count = report->boundary_edges;
+    } else if (report->inconsistent_edges) {
+        wrong = "is run along in the same sense by both its triangles";
+        right = "the triangles must all be wound the same way round";
+        edge = report->first_inconsistent;
+        count = report->inconsistent_edges;
+    }
+    if (!wrong)
+        return STATUS_OK;
+    const double *a = mesh->position[edge[0]], *b = mesh->position[edge[1]];
+    return error_set(err, STATUS_INPUT,
+                     "%s: the edge from (%g, %g, %g) to (%g, %g, %g) %s, as %zu edges do; %s", path, a[0],
+                     a[1], a[2], b[0], b[1], b[2], wrong, count, right);
+}
+
+static void turn_inside_out(struct mesh *mesh)
+{
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        uint32_t *p = mesh->triangle[t], *e = mesh->triangle_edge[t];
+        const uint32_t point = p[1], edge = e[0];
+        p[1] = p[2];
+        p[2] = point;
+        e[0] = e[2];
+        e[2] = edge;
+    }
+}
+
+static enum status load_mesh(const char *path, struct mesh *mesh, struct mesh_report *report,
+                             struct error *err)
+{
+    enum status status = mesh_load(path, mesh, err);
+    if (status)
+        return status;
+    if (mesh_repair(mesh, report, err))
+        return error_prefix(err, path);
+    status = check_surface(path, mesh, report, err);
+    if (!status && report->volume < 0)
+        turn_inside_out(mesh);
+    return status;
+}
+
+enum status sim_load_meshes(const struct scene *scene, struct mesh *meshes, struct mesh_report *reports,
+                            struct error *err)
+{
+    for (size_t i = 0; i < scene->balloon_count; i++) {
+        enum status status = load_mesh(scene->balloons[i].mesh, &meshes[i], &reports[i], err);
+        if (status)
+            return status;
+    }
+    return STATUS_OK;
+}
+
+enum status sim_skin(const struct sim *sim, struct mesh *mesh, struct error *err)
+{
+    struct mesh skin = {0};
+    uint32_t active = 0;
+    for (uint32_t t = 0; t < sim->triangle_count; t++)
+        active += sim->triangle_active[t];
+    enum status status = mesh_init(&skin, sim->point_count, active, false, err);
+    if (status)
+        return status;
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        for (int i = 0; i < 3; i++)
+            skin.position[p][i] = sim->position[p][i];
+    for (uint32_t t = 0, to = 0; t < sim->triangle_count; t++)
+        for (int k = 0; k < 3 && sim->triangle_active[t]; k++)
+            skin.triangle[to][k] = sim->triangle_point[t][k], to += k == 2;
+    *mesh = skin;
+    return STATUS_OK;
+}
