@@ -1,0 +1,12 @@
+/* What --info says about a sculpture. Belongs to the program, not to the library. */
+#ifndef SCULPT_INFO_H
+#define SCULPT_INFO_H
+
+#include "common/octree.h"
+
+#include <stdio.h>
+
+/* Writes a line a figure: its name, then its value. */
+void info_print(const struct octree *tree, FILE *stream);
+
+#endif
