@@ -41,17 +41,18 @@ enum status mesh_init(struct mesh *mesh, size_t point_count, size_t triangle_cou
                       struct error *err);
 void mesh_clear(struct mesh *mesh);
 
-/* A mesh from a soup: corner[3 t .. 3 t + 2] are the corners of triangle t. Corners at exactly the same place
- * (-0 and 0 are the same) become one point; points are numbered as they first appear. *mesh, which must be {0} or a mesh, is
- * replaced; on failure it is as it was. O(n). Errors: STATUS_NO_MEMORY, STATUS_RANGE past 2^32 - 2 points. */
+/* A mesh from a soup: corner[3 t .. 3 t + 2] are the corners of triangle t. Corners at exactly the same
+ * place (-0 and 0 are the same) become one point; points are numbered as they first appear. *mesh, which
+ * must be {0} or a mesh, is replaced; on failure it is as it was. O(n). Errors: STATUS_NO_MEMORY,
+ * STATUS_RANGE past 2^32 - 2 points. */
 enum status mesh_from_soup(const double (*corner)[3], size_t triangle_count, struct mesh *mesh,
                            struct error *err);
 
-/* Finds the unique edges and each triangle's three: edges are numbered as they first appear in the triangles'
- * order, which keeps them near their points in memory. The paper's "uniquely sorted into data structures for
- * points, edges, and triangles" (3.5). Winding and order of the triangles stay. O(n), whatever the mesh.
- * Errors: STATUS_NO_MEMORY, STATUS_INPUT for a corner that is no point, STATUS_RANGE past 2^32 / 3
- * triangles. */
+/* Finds the unique edges and each triangle's three: edges are numbered as they first appear in the
+ * triangles' order, which keeps them near their points in memory. The paper's "uniquely sorted into data
+ * structures for points, edges, and triangles" (3.5). Winding and order of the triangles stay. O(n),
+ * whatever the mesh. Errors: STATUS_NO_MEMORY, STATUS_INPUT for a corner that is no point, STATUS_RANGE
+ * past 2^32 / 3 triangles. */
 enum status mesh_connect(struct mesh *mesh, struct error *err);
 
 /* What is unusual about a mesh, and what mesh_repair() did about it. */
@@ -73,11 +74,12 @@ struct mesh_report {
     double volume;         /* signed: negative for an inside-out closed mesh */
 };
 
-/* Welds equal points, drops unused points and flat or repeated triangles, then measures the rest and connects
- * it. Points and triangles keep their order; of welded points the first one's normal stays. Refuses
- * (STATUS_INPUT) positions that are not finite or beyond MESH_COORDINATE_MAX and indices out of range, naming
- * the element, and a mesh without triangles or with flat ones only. Whether to refuse open, overfull or
- * inconsistent meshes is the caller's business. After STATUS_NO_MEMORY the mesh may be repaired in part. */
+/* Welds equal points, drops unused points and flat or repeated triangles, then measures the rest and
+ * connects it. Points and triangles keep their order; of welded points the first one's normal stays.
+ * Refuses (STATUS_INPUT) positions that are not finite or beyond MESH_COORDINATE_MAX and indices out of
+ * range, naming the element, and a mesh without triangles or with flat ones only. Whether to refuse open,
+ * overfull or inconsistent meshes is the caller's business. After STATUS_NO_MEMORY the mesh may be
+ * repaired in part. */
 enum status mesh_repair(struct mesh *mesh, struct mesh_report *report, struct error *err);
 
 /* One line on what was repaired ("3 repeated points welded, 1 flat triangle dropped") into text, for a note
@@ -87,9 +89,9 @@ const char *mesh_report_repairs(const struct mesh_report *report, char *text, si
 /* Reads .ply (ASCII, both binary byte orders), .stl (ASCII and binary) or .obj, by extension; polygons are
  * cut into fans. *mesh, which must be {0} or a mesh, is replaced; after a failure it is as it was. Claimed
  * counts are checked against the file's size before memory is asked for. Loaded positions are finite and
- * indices in range; there is at least one triangle. Normals come from PLY only, of unit length, and only where
- * every point has one. Errors, which name the file and its line or element: STATUS_FILE, STATUS_INPUT,
- * STATUS_NO_MEMORY, STATUS_RANGE. */
+ * indices in range; there is at least one triangle. Normals come from PLY only, of unit length, and only
+ * where every point has one. Errors, which name the file and its line or element: STATUS_FILE,
+ * STATUS_INPUT, STATUS_NO_MEMORY, STATUS_RANGE. */
 enum status mesh_load(const char *path, struct mesh *mesh, struct error *err);
 
 /* Writes .ply (binary little endian, positions to the bit; with normals where the mesh has them), .stl
@@ -98,8 +100,8 @@ enum status mesh_load(const char *path, struct mesh *mesh, struct error *err);
  * STATUS_NO_MEMORY. */
 enum status mesh_save(const struct mesh *mesh, const char *path, struct error *err);
 
-/* Volume enclosed by the triangles (signed, from the divergence theorem) and their whole area. An open mesh is
- * taken as closed by cones from its boundaries to the mean of its points. */
+/* Volume enclosed by the triangles (signed, from the divergence theorem) and their whole area. An open
+ * mesh is taken as closed by cones from its boundaries to the mean of its points. */
 double mesh_volume(const struct mesh *mesh);
 double mesh_area(const struct mesh *mesh);
 

@@ -1,8 +1,9 @@
 /*
  * Edges of a mesh. A triangle's three sides, written 3 t + k, are sorted into bins by their smaller point
  * with one counting pass. Within a bin a table by the larger point tells the sides of one edge apart. Each
- * side so learns the first side of its edge, and numbering follows the triangles' order. Every step is a walk
- * over an array: nothing is sorted, searched or allocated edge by edge, and no shape of mesh makes it slower.
+ * side so learns the first side of its edge, and numbering follows the triangles' order. Every step is a
+ * walk over an array: nothing is sorted, searched or allocated edge by edge, and no shape of mesh makes it
+ * slower.
  */
 #include "common/array.h"
 #include "common/mesh.h"
@@ -51,8 +52,8 @@ static void bin_sides(const struct mesh *mesh, uint32_t *bin_end, uint32_t *binn
     }
 }
 
-/* first[side] = the first side, in the triangles' order, of the same edge. seen[point_count] is room to work.
- * A side that `seen` kept from an earlier bin is recognised by its smaller point. */
+/* first[side] = the first side, in the triangles' order, of the same edge. seen[point_count] is room to
+ * work. A side that `seen` kept from an earlier bin is recognised by its smaller point. */
 static void find_first_sides(const struct mesh *mesh, const uint32_t *binned, uint32_t *seen, uint32_t *first)
 {
     memset(seen, 0xff, mesh->point_count * sizeof *seen);
@@ -68,8 +69,8 @@ static void find_first_sides(const struct mesh *mesh, const uint32_t *binned, ui
     }
 }
 
-/* Turns each side's first side into the edge's number, in place, and returns how many edges there are. A first
- * side comes before the others of its edge, so its number is known when they ask. */
+/* Turns each side's first side into the edge's number, in place, and returns how many edges there are. A
+ * first side comes before the others of its edge, so its number is known when they ask. */
 static uint32_t number_edges(uint32_t *side_edge, uint32_t side_count)
 {
     uint32_t edge_count = 0;

@@ -2,8 +2,8 @@
  * What mesh_load() and mesh_save() share with the formats behind them.
  *
  * A reader gets all bytes of a file (with the NUL behind them that file_read() promises) and its name for
- * messages. It writes *mesh, which is empty, when it succeeds; indices are then in range and positions finite.
- * A writer writes to a stream whose errors are found by whoever opened it.
+ * messages. It writes *mesh, which is empty, when it succeeds; indices are then in range and positions
+ * finite. A writer writes to a stream whose errors are found by whoever opened it.
  */
 #ifndef COMMON_MESH_FILES_H
 #define COMMON_MESH_FILES_H

@@ -4,8 +4,8 @@
 
 #include "common/mesh.h"
 
-/* Sets all of *report but the counts of repairs. The mesh must be connected and no triangle have a corner twice.
- * O(n). Errors: STATUS_NO_MEMORY. */
+/* Sets all of *report but the counts of repairs. The mesh must be connected and no triangle have a corner
+ * twice. O(n). Errors: STATUS_NO_MEMORY. */
 enum status mesh_measure(const struct mesh *mesh, struct mesh_report *report, struct error *err);
 
 #endif

@@ -1,6 +1,6 @@
 /*
- * STL (3D Systems, 1989): a soup of triangles, as text or in records of 50 bytes. Many binary files begin with
- * "solid" like the text ones; what tells them apart is their size, 84 + 50 x the count at byte 80.
+ * STL (3D Systems, 1989): a soup of triangles, as text or in records of 50 bytes. Many binary files begin
+ * with "solid" like the text ones; what tells them apart is their size, 84 + 50 x the count at byte 80.
  */
 #include "common/array.h"
 #include "common/mesh_files.h"

@@ -1,6 +1,6 @@
 /*
- * The header of a PLY file (G. Turk, "The PLY polygon file format", Stanford 1994): which elements follow, how
- * many, and of what properties each is made.
+ * The header of a PLY file (G. Turk, "The PLY polygon file format", Stanford 1994): which elements follow,
+ * how many, and of what properties each is made.
  */
 #ifndef COMMON_PLY_H
 #define COMMON_PLY_H
@@ -53,9 +53,9 @@ struct ply_header {
     } properties;
 };
 
-/* Reads the header; *text then stands at the first byte behind it. Names point into the text. Refuses a header
- * without x, y, z or faces, and counts that cannot be in what is left of the text. Clear *header, whatever is
- * returned. */
+/* Reads the header; *text then stands at the first byte behind it. Names point into the text. Refuses a
+ * header without x, y, z or faces, and counts that cannot be in what is left of the text. Clear *header,
+ * whatever is returned. */
 enum status ply_header_read(struct text *text, struct ply_header *header, struct error *err);
 void ply_header_clear(struct ply_header *header);
 

@@ -7,8 +7,8 @@
 
 enum { FIRST_SLOTS = 1024 };
 
-/* The finaliser of SplitMix64 (see common/random.h) over the three numbers in turn: neighbours in space, whose
- * bits differ little, are spread over the whole table. */
+/* The finaliser of SplitMix64 (see common/random.h) over the three numbers in turn: neighbours in space,
+ * whose bits differ little, are spread over the whole table. */
 static uint64_t hash_of(const double triple[3])
 {
     uint64_t hash = 0;

@@ -18,8 +18,8 @@ struct triple_set {
 
 #define TRIPLE_NONE UINT32_MAX
 
-/* The number of a triple, which is added where it is new. TRIPLE_NONE, with the set as it was, when there is no
- * memory or count is 2^32 - 2 already. */
+/* The number of a triple, which is added where it is new. TRIPLE_NONE, with the set as it was, when there
+ * is no memory or count is 2^32 - 2 already. */
 uint32_t triple_set_add(struct triple_set *set, const double triple[3]);
 void triple_set_clear(struct triple_set *set);
 
