@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -65,8 +66,11 @@ static mode_t new_file_mode(const struct stat *old, bool exists)
 {
     if (exists)
         return old->st_mode & 07777;
+    static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* two at once would leave the mask at 0 */
+    pthread_mutex_lock(&lock);
     mode_t mask = umask(0);
     umask(mask);
+    pthread_mutex_unlock(&lock);
     return 0666 & ~mask;
 }
 
