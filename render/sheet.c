@@ -1,0 +1,151 @@
+#include "render/sheet.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { TILE_MAX = 480, GAP = 6 };
+
+/* What a picture that does not change still counts, so that a still run is spaced evenly in time. */
+static const double least_change = 1e-4;
+
+/* The mean of each box of pixels that falls into one pixel of `to`, which is no larger. */
+static void reduce_row(const struct image *from, struct image *to, int row, uint32_t *sums)
+{
+    int top = (int)((int64_t)row * from->height / to->height);
+    int bottom = (int)((int64_t)(row + 1) * from->height / to->height);
+    memset(sums, 0, 3 * (size_t)from->width * sizeof *sums);
+    for (int y = top; y < bottom; y++) {
+        const unsigned char *line = from->rgb + 3 * (size_t)from->width * (size_t)y;
+        for (size_t i = 0; i < 3 * (size_t)from->width; i++)
+            sums[i] += line[i];
+    }
+    unsigned char *out = to->rgb + 3 * (size_t)to->width * (size_t)row;
+    for (int x = 0; x < to->width; x++) {
+        int left = (int)((int64_t)x * from->width / to->width);
+        int right = (int)((int64_t)(x + 1) * from->width / to->width);
+        uint64_t total[3] = {0}, count = (uint64_t)(right - left) * (uint64_t)(bottom - top);
+        for (int i = left; i < right; i++)
+            for (int c = 0; c < 3; c++)
+                total[c] += sums[3 * (size_t)i + (size_t)c];
+        for (int c = 0; c < 3; c++)
+            out[3 * (size_t)x + (size_t)c] = (unsigned char)((total[c] + count / 2) / count);
+    }
+}
+
+static enum status reduce(const struct image *from, struct image *to, struct error *err)
+{
+    double scale = fmin(1, (double)TILE_MAX / fmax(from->width, from->height));
+    int width = (int)fmax(1, round(from->width * scale)), height = (int)fmax(1, round(from->height * scale));
+    uint32_t *sums = malloc(3 * (size_t)from->width * sizeof *sums);
+    enum status status = sums ? image_init(to, width, height, err)
+                              : error_no_memory(err, "the contact sheet");
+    for (int row = 0; row < height && !status; row++)
+        reduce_row(from, to, row, sums);
+    free(sums);
+    return status;
+}
+
+static double difference(const struct image *a, const struct image *b)
+{
+    uint64_t sum = 0;
+    size_t count = 3 * (size_t)a->width * (size_t)a->height;
+    for (size_t i = 0; i < count; i++)
+        sum += (uint64_t)abs(a->rgb[i] - b->rgb[i]);
+    return (double)sum / (double)count;
+}
+
+/* Drops the inner moment whose going leaves the smallest step. */
+static void drop_one(struct sheet *sheet)
+{
+    int dropped = 1;
+    double least = INFINITY;
+    for (int i = 1; i + 1 < sheet->count; i++) {
+        double step = sheet->moments[i + 1].change - sheet->moments[i - 1].change;
+        if (step < least) {
+            least = step;
+            dropped = i;
+        }
+    }
+    image_clear(&sheet->moments[dropped].image);
+    memmove(sheet->moments + dropped, sheet->moments + dropped + 1,
+            (size_t)(sheet->count - dropped - 1) * sizeof *sheet->moments);
+    sheet->count--;
+}
+
+enum status sheet_add(struct sheet *sheet, const struct image *image, double time, struct error *err)
+{
+    struct sheet_moment moment = {.time = time};
+    enum status status = reduce(image, &moment.image, err);
+    if (status)
+        return status;
+    if (sheet->count) {
+        const struct sheet_moment *last = &sheet->moments[sheet->count - 1];
+        moment.change = last->change + least_change + difference(&last->image, &moment.image);
+    }
+    sheet->moments[sheet->count++] = moment;
+    if (sheet->count > SHEET_KEPT)
+        drop_one(sheet);
+    return STATUS_OK;
+}
+
+int sheet_choose(const struct sheet *sheet, int chosen[SHEET_MOMENTS])
+{
+    int count = sheet->count < SHEET_MOMENTS ? sheet->count : SHEET_MOMENTS;
+    int next = 0;
+    for (int k = 0; k < count; k++) {
+        int last = sheet->count - (count - k); /* leaves one for each that follows */
+        double wanted = sheet->moments[sheet->count - 1].change * k / (count > 1 ? count - 1 : 1);
+        while (next < last &&
+               fabs(sheet->moments[next + 1].change - wanted) <= fabs(sheet->moments[next].change - wanted))
+            next++;
+        chosen[k] = next++;
+    }
+    return count;
+}
+
+/* As many decimals as tell one moment from the next. */
+static int decimals_for(const struct sheet *sheet)
+{
+    double span = sheet->moments[sheet->count - 1].time - sheet->moments[0].time;
+    double decimals = -floor(log10(span / (SHEET_MOMENTS - 1)));
+    return decimals > 0 && decimals < 7 ? (int)decimals : 0;
+}
+
+static void draw_tile(struct image *out, const struct sheet_moment *moment, int left, int top, int decimals)
+{
+    const struct image *tile = &moment->image;
+    for (int y = 0; y < tile->height; y++)
+        memcpy(out->rgb + 3 * ((size_t)(top + y) * (size_t)out->width + (size_t)left),
+               tile->rgb + 3 * (size_t)tile->width * (size_t)y, 3 * (size_t)tile->width);
+    char text[64];
+    snprintf(text, sizeof text, fabs(moment->time) < 1e6 ? "%.*f s" : "%.*e s", decimals, moment->time);
+    int scale = tile->height < 120 ? 1 : 2;
+    label_draw(out, left + 4 * scale, top + tile->height - (LABEL_HEIGHT + 4) * scale, scale, text);
+}
+
+enum status sheet_draw(const struct sheet *sheet, struct image *out, struct error *err)
+{
+    if (!sheet->count)
+        return error_set(err, STATUS_RANGE, "a contact sheet needs at least one picture");
+    int chosen[SHEET_MOMENTS], count = sheet_choose(sheet, chosen);
+    int columns = count < SHEET_COLUMNS ? count : SHEET_COLUMNS, rows = (count + columns - 1) / columns;
+    int width = sheet->moments[0].image.width, height = sheet->moments[0].image.height;
+    enum status status = image_init(out, columns * (width + GAP) + GAP, rows * (height + GAP) + GAP, err);
+    if (status)
+        return status;
+    memset(out->rgb, 0xff, 3 * (size_t)out->width * (size_t)out->height);
+    for (int k = 0; k < count; k++)
+        draw_tile(out, &sheet->moments[chosen[k]], GAP + k % columns * (width + GAP),
+                  GAP + k / columns * (height + GAP), decimals_for(sheet));
+    return STATUS_OK;
+}
+
+void sheet_clear(struct sheet *sheet)
+{
+    for (int i = 0; i < sheet->count; i++)
+        image_clear(&sheet->moments[i].image);
+    *sheet = (struct sheet){0};
+}

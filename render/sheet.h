@@ -1,0 +1,50 @@
+/*
+ * A contact sheet: twelve moments of a run on one picture, 4 x 3, evenly spaced in how much the picture
+ * changes, each labelled with its time.
+ *
+ *     struct sheet sheet = {0};
+ *     if (sheet_add(&sheet, &image, time, err)) ...       for each picture, all of one size
+ *     if (sheet_draw(&sheet, &image_out, err)) ...
+ *     sheet_clear(&sheet);
+ *
+ * It keeps at most SHEET_KEPT reduced pictures: when there is one too many, that one goes whose neighbours
+ * differ least.
+ */
+#ifndef RENDER_SHEET_H
+#define RENDER_SHEET_H
+
+#include "render/image.h"
+
+enum { SHEET_COLUMNS = 4, SHEET_ROWS = 3, SHEET_MOMENTS = 12, SHEET_KEPT = 48 };
+
+struct sheet_moment {
+    struct image image; /* reduced to a tile of the sheet */
+    double time;
+    double change; /* of the picture since the first: sum of mean absolute differences, in 1/255 */
+};
+
+struct sheet {
+    struct sheet_moment moments[SHEET_KEPT + 1]; /* the last is always the last picture */
+    int count;
+};
+
+/* Errors: STATUS_NO_MEMORY. */
+enum status sheet_add(struct sheet *sheet, const struct image *image, double time, struct error *err);
+
+/* Makes the sheet in *out; fewer tiles where there were fewer pictures. Errors: STATUS_RANGE without any,
+ * STATUS_NO_MEMORY. */
+enum status sheet_draw(const struct sheet *sheet, struct image *out, struct error *err);
+
+/* The moments it shows, by their index, in `chosen`; returns how many. */
+int sheet_choose(const struct sheet *sheet, int chosen[SHEET_MOMENTS]);
+
+void sheet_clear(struct sheet *sheet);
+
+/* Writes text (digits, " .+-es"; others are left blank) in dark grey with its upper left corner at x, y; each
+ * dot of the letters is scale x scale pixels. What lies outside the image is left out. label.c */
+void label_draw(struct image *image, int x, int y, int scale, const char *text);
+
+/* The height of a line of text in dots. */
+enum { LABEL_HEIGHT = 7 };
+
+#endif

@@ -1,0 +1,145 @@
+/* What frames cost: a sphere of 3000 triangles whose skin thins, drawn and written, 400 frames of 1280 wide. */
+#include "render/frames.h"
+#include "render/render.h"
+
+#include "../unit/sphere.h"
+
+#include <ftw.h>
+#include <stdio.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { FRAMES = 400, SAMPLES = 40 };
+
+struct scene {
+    struct mesh mesh;
+    float *opacity, *shininess;
+    struct render_view view;
+    struct render *render;
+    struct image image;
+};
+
+static double seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void check(enum status status, const struct error *err)
+{
+    if (!status)
+        return;
+    fprintf(stderr, "bench_frames: %s\n", err->text);
+    exit(status_exit_code(status));
+}
+
+/* Frame i of the run: the sphere swells, its skin thins from opaque to 0.4 and begins to shine. */
+static void draw(struct scene *scene, int i)
+{
+    struct error err;
+    double part = (double)i / (FRAMES - 1);
+    for (uint32_t p = 0; p < scene->mesh.point_count; p++)
+        for (int k = 0; k < 3; k++)
+            scene->mesh.position[p][k] = scene->mesh.normal[p][k] * (0.6 + 0.4 * part);
+    for (uint32_t t = 0; t < scene->mesh.triangle_count; t++) {
+        scene->opacity[t] = (float)(1 - 0.6 * part);
+        scene->shininess[t] = (float)(100 * part);
+    }
+    struct render_skin skin = {.mesh = &scene->mesh,
+                               .opacity = scene->opacity,
+                               .shininess = scene->shininess,
+                               .colour = {0.7f, 0.035f, 0.04f}};
+    check(render_draw(scene->render, &scene->view, &skin, 1, &scene->image, &err), &err);
+}
+
+static void open_scene(struct scene *scene)
+{
+    struct error err;
+    const double lower[3] = {-1, -1, -1}, upper[3] = {1, 1, 1}, from[3] = {0.3, 0.25, 1};
+    *scene = (struct scene){.mesh = sphere_new(39, 40)};
+    scene->opacity = calloc(scene->mesh.triangle_count, sizeof *scene->opacity);
+    scene->shininess = calloc(scene->mesh.triangle_count, sizeof *scene->shininess);
+    scene->view = (struct render_view){.width = 1280,
+                                       .height = 480,
+                                       .stereo = RENDER_PARALLEL,
+                                       .sorted = true,
+                                       .floor = true,
+                                       .floor_height = -1};
+    check(render_fit_camera(&scene->view, lower, upper, from, 0.1, &err), &err);
+    check(render_open(1280, 480, &scene->render, &err), &err);
+}
+
+static void close_scene(struct scene *scene)
+{
+    render_close(scene->render);
+    image_clear(&scene->image);
+    free(scene->opacity);
+    free(scene->shininess);
+    sphere_free(&scene->mesh);
+}
+
+static double draw_ms(struct scene *scene)
+{
+    double start = seconds();
+    for (int i = 0; i < SAMPLES; i++)
+        draw(scene, i * FRAMES / SAMPLES);
+    return (seconds() - start) / SAMPLES * 1e3;
+}
+
+static double encode_ms(struct scene *scene)
+{
+    struct error err;
+    double spent = 0;
+    for (int i = 0; i < SAMPLES; i++) {
+        draw(scene, i * FRAMES / SAMPLES);
+        double start = seconds();
+        check(image_save_png(&scene->image, "one.png", NULL, 0, &err), &err);
+        spent += seconds() - start;
+    }
+    return spent / SAMPLES * 1e3;
+}
+
+static void measure(struct scene *scene, const char *name, bool smooth, struct frames_options options)
+{
+    struct error err;
+    struct frames *frames;
+    scene->view.smooth_edges = smooth;
+    double drawing = draw_ms(scene), encoding = encode_ms(scene), start = seconds();
+    check(frames_open(&options, &frames, &err), &err);
+    for (int i = 0; i < FRAMES; i++) {
+        draw(scene, i);
+        check(frames_add(frames, &scene->image, i / 30.0, &err), &err);
+    }
+    check(frames_close(frames, &err), &err);
+    printf("%s\t%.2f\t%.2f\t%.2f\n", name, drawing, encoding, seconds() - start);
+    fflush(stdout);
+}
+
+static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *walk)
+{
+    (void)info, (void)kind, (void)walk;
+    return remove(path);
+}
+
+int main(void)
+{
+    char folder[] = "bench-frames-XXXXXX";
+    if (!mkdtemp(folder) || chdir(folder))
+        return 1;
+    struct scene scene;
+    open_scene(&scene);
+    printf("400 stereo frames of 1280 x 480, %u triangles\n", scene.mesh.triangle_count);
+    printf("written\tdraw ms\tencode ms\tall s\n");
+    measure(&scene, "PNG", false, (struct frames_options){.folder = "f"});
+    measure(&scene, "PNG, smooth edges", true, (struct frames_options){.folder = "f"});
+    measure(&scene, "PNG, smooth edges, sheet", true,
+            (struct frames_options){.folder = "f", .sheet = "sheet.png"});
+    if (!system("command -v ffmpeg >/dev/null"))
+        measure(&scene, "PNG, smooth edges, sheet, mp4", true,
+                (struct frames_options){.folder = "f", .sheet = "sheet.png", .movie = "m.mp4"});
+    close_scene(&scene);
+    if (chdir(".."))
+        return 1;
+    return nftw(folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS) != 0;
+}
