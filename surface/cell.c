@@ -1,0 +1,161 @@
+#include "surface/cell.h"
+
+#include "common/vec3.h"
+
+#include <math.h>
+#include <string.h>
+
+static int edge_between(int p, int q)
+{
+    int axis = (p ^ q) >> 1, base = p & q; /* 1, 2, 4 -> 0, 1, 2 */
+    return 4 * axis + (base >> (axis + 1) % 3 & 1) + 2 * (base >> (axis + 2) % 3 & 1);
+}
+
+static void make_face(struct cell_table *table, int face)
+{
+    static const uint8_t turn[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    int axis = face / 2, upper = face % 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (int i = 0; i < 4; i++) {
+        int first = turn[i][!upper], second = turn[i][upper];
+        table->corner[face][i] = (uint8_t)(upper << axis | first << u | second << v);
+    }
+    for (int i = 0; i < 4; i++) {
+        int edge = edge_between(table->corner[face][i], table->corner[face][(i + 1) % 4]);
+        table->edge[face][i] = (uint8_t)edge;
+        table->faces[edge] |= (uint8_t)(1 << face);
+        int p = table->corner[face][i], q = table->corner[face][(i + 1) % 4];
+        table->ends[edge][0] = (uint8_t)(p & q);
+        table->ends[edge][1] = (uint8_t)(p | q);
+    }
+}
+
+void cell_table_make(struct cell_table *table)
+{
+    memset(table, 0, sizeof *table);
+    for (int face = 0; face < CELL_FACES; face++)
+        make_face(table, face);
+    for (int mask = 0; mask < 256; mask++)
+        for (int face = 0; face < CELL_FACES; face++) {
+            const uint8_t *c = table->corner[face];
+            int a = mask >> c[0] & 1, b = mask >> c[1] & 1, d = mask >> c[2] & 1, e = mask >> c[3] & 1;
+            if (a != b || b != d || d != e)
+                table->crossed[mask] |= (uint8_t)(1 << face);
+            if (a == d && b == e && a != b)
+                table->ambiguous[mask] |= (uint8_t)(1 << face);
+        }
+}
+
+/* The arcs of one face: next[edge where the walk enters] = edge where it leaves. */
+static void link_face(const struct cell_table *table, int face, unsigned inside, bool joined,
+                      uint8_t next[CELL_EDGES])
+{
+    const uint8_t *corner = table->corner[face], *edge = table->edge[face];
+    for (int i = 0; i < 4; i++) {
+        if (inside >> corner[i] & 1 || !(inside >> corner[(i + 1) % 4] & 1))
+            continue;
+        /* Leaves after the run of inside corners, or, where those belong together, before the run of outside ones. */
+        int leave = (i + 1) % 4;
+        if (joined)
+            leave = (i + 3) % 4;
+        else
+            while (inside >> corner[(leave + 1) % 4] & 1)
+                leave = (leave + 1) % 4;
+        next[edge[i]] = edge[leave];
+    }
+}
+
+void cell_find_loops(const struct cell_table *table, unsigned inside, unsigned joined,
+                     struct cell_loops *loops)
+{
+    enum { NONE = 255 };
+    uint8_t next[CELL_EDGES];
+    memset(next, NONE, sizeof next);
+    for (int face = 0; face < CELL_FACES; face++)
+        if (table->crossed[inside] >> face & 1)
+            link_face(table, face, inside, table->ambiguous[inside] >> face & joined >> face & 1, next);
+    loops->count = 0;
+    for (int start = 0; start < CELL_EDGES; start++) {
+        if (next[start] == NONE)
+            continue;
+        int length = 0, loop = loops->count++;
+        for (uint8_t edge = (uint8_t)start; next[edge] != NONE;) {
+            loops->edge[loop][length++] = edge;
+            uint8_t following = next[edge];
+            next[edge] = NONE;
+            edge = following;
+        }
+        loops->length[loop] = length;
+    }
+}
+
+/* The cosine of a triangle's smallest angle: the largest of the three. */
+static double sharpness(const double a[3], const double b[3], const double c[3])
+{
+    double ab = vec3_distance(a, b), bc = vec3_distance(b, c), ca = vec3_distance(c, a);
+    double p = (ab * ab + ca * ca - bc * bc) / (2 * ab * ca),
+           q = (ab * ab + bc * bc - ca * ca) / (2 * ab * bc);
+    double r = (bc * bc + ca * ca - ab * ab) / (2 * bc * ca);
+    return fmax(p, fmax(q, r));
+}
+
+/* best[i][j]: the sharpest angle's cosine in the best triangulation of the part of the loop from i to j; apex[i][j]:
+ * the corner of the triangle on its chord. Klincsek's dynamic programme ("Minimal triangulations of polygonal
+ * domains", 1980) with the smallest angle for a measure. */
+struct plan {
+    double best[CELL_EDGES][CELL_EDGES];
+    uint8_t apex[CELL_EDGES][CELL_EDGES];
+};
+
+static void plan_chord(struct plan *plan, const double place[][3], int i, int j)
+{
+    for (int k = i + 1; k < j; k++) {
+        double worse = fmax(plan->best[i][k], plan->best[k][j]);
+        if (worse >= plan->best[i][j])
+            continue;
+        double cost = fmax(worse, sharpness(place[i], place[k], place[j]));
+        if (cost < plan->best[i][j]) {
+            plan->best[i][j] = cost;
+            plan->apex[i][j] = (uint8_t)k;
+        }
+    }
+}
+
+static int read_plan(const struct plan *plan, int i, int j, uint8_t triangles[][3], int count)
+{
+    if (j < i + 2)
+        return count;
+    int k = plan->apex[i][j];
+    triangles[count][0] = (uint8_t)i;
+    triangles[count][1] = (uint8_t)k;
+    triangles[count][2] = (uint8_t)j;
+    count = read_plan(plan, i, k, triangles, count + 1);
+    return read_plan(plan, k, j, triangles, count);
+}
+
+int cell_triangulate(const struct cell_table *table, const uint8_t *edges, int length,
+                     const double place[][3], uint8_t triangles[][3])
+{
+    /* Above any cosine, so that a flat triangle is still better than none. */
+    const double allowed = 2, forbidden = 3;
+    struct plan plan;
+    if (length == 3) {
+        memcpy(triangles[0], (uint8_t[3]){0, 1, 2}, 3);
+        return 1;
+    }
+    for (int i = 0; i + 1 < length; i++)
+        plan.best[i][i + 1] = -1;
+    for (int span = 2; span < length; span++)
+        for (int i = 0; i + span < length; i++) {
+            int j = i + span;
+            bool arc = span == length - 1,
+                 chord_ok = arc || !(table->faces[edges[i]] & table->faces[edges[j]]);
+            plan.best[i][j] = chord_ok ? allowed : forbidden;
+            if (chord_ok)
+                plan_chord(&plan, place, i, j);
+            if (plan.best[i][j] == allowed)
+                plan.best[i][j] = forbidden;
+        }
+    if (plan.best[0][length - 1] >= allowed)
+        return 0;
+    return read_plan(&plan, 0, length - 1, triangles, 0);
+}

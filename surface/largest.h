@@ -1,0 +1,11 @@
+/* The largest value of a field, for a message that says how far off a threshold is. */
+#ifndef SURFACE_LARGEST_H
+#define SURFACE_LARGEST_H
+
+#include "surface/field.h"
+
+/* The largest value found at the middles of leaves, their faces and their first sub-cells, and uphill from the best
+ * of these; and the point, in the octree's cells. Errors: STATUS_NO_MEMORY. */
+enum status field_largest(const struct field *field, double *value, double point[3], struct error *err);
+
+#endif

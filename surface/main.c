@@ -1,0 +1,304 @@
+/* balloon-surface: from a sculpture to a balloon's mesh. */
+#include "common/command.h"
+#include "common/file.h"
+#include "common/octree.h"
+#include "render/render.h"
+#include "surface/surface.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum option_key {
+    KEY_CUBE_SIZE = 256,
+    KEY_TRIANGLES,
+    KEY_PER_CUBE,
+    KEY_PER_AREA,
+    KEY_SIGMA,
+    KEY_THRESHOLD,
+    KEY_CUTOFF,
+    KEY_SEEDS,
+    KEY_SEED,
+    KEY_INFO,
+    KEY_RENDER,
+};
+
+static const struct argp_option option_list[] = {
+    {"output", 'o', "FILE", 0, "Write the mesh to FILE: .ply (with normals), .stl or .obj", 0},
+    {"cube-size", KEY_CUBE_SIZE, "H", 0, "Side of the marching cubes, the first cube of material having 1",
+     0},
+    {"triangles", KEY_TRIANGLES, "N", 0, "Choose the cube size for about N triangles", 0},
+    {"fields-per-cube", KEY_PER_CUBE, "N", 0,
+     "Gaussians in each finest cell: 0, 1, 8, 27, 64 ... 4096, or exact (default): infinitely many", 0},
+    {"fields-per-area", KEY_PER_AREA, "A", 0,
+     "Gaussians on each unit of area of material that borders on emptiness (default 0)", 0},
+    {"sigma", KEY_SIGMA, "S", 0,
+     "Width of the Gaussians, in sides of the finest cell (default 0.35), or of the first cube: 0.02u", 0},
+    {"threshold", KEY_THRESHOLD, "T", 0, "The surface is where the field is T (default 0.5)", 0},
+    {"cutoff", KEY_CUTOFF, "R", 0, "Gaussians end at R sigma (default 6)", 0},
+    {"seeds", KEY_SEEDS, "HOW", 0, "Where following begins: descent (default) or random", 0},
+    {"seed", KEY_SEED, "N", 0, "Of the random points (default 1)", 0},
+    {"info", KEY_INFO, NULL, 0, "Print figures about the mesh", 0},
+    {"render", KEY_RENDER, "FILE.png", 0, "Draw the mesh", 0},
+    {"quiet", 'q', NULL, 0, "No notes, no progress", 0},
+    {0},
+};
+
+struct arguments {
+    const char *input, *output, *render;
+    bool info, sigma_in_units;
+    struct surface_options options;
+};
+
+static long fields_per_cube(struct argp_state *state, const char *argument)
+{
+    if (strcmp(argument, "exact") == 0)
+        return FIELDS_EXACT;
+    char *end;
+    long fields = strtol(argument, &end, 10);
+    long side = lround(cbrt((double)fields));
+    if (end == argument || *end || fields < 0 || side > FIELDS_SIDE_MAX || side * side * side != fields)
+        argp_error(
+            state,
+            "--fields-per-cube %s: must be exact, 0, or a regular grid's number of points: 1, 8, 27, 64, "
+            "125, 216, 343, 512 ... 4096",
+            argument);
+    return fields;
+}
+
+static void set_sigma(struct arguments *arguments, struct argp_state *state, const char *argument)
+{
+    char number[64];
+    size_t length = strlen(argument);
+    arguments->sigma_in_units = length && argument[length - 1] == 'u';
+    snprintf(number, sizeof number, "%.*s", (int)(length - arguments->sigma_in_units), argument);
+    double least = arguments->sigma_in_units ? 1e-5 : 0.01, most = arguments->sigma_in_units ? 10 : 1000;
+    arguments->options.field.sigma = command_number(state, "--sigma", number, least, most);
+}
+
+static void set_seeds(struct arguments *arguments, struct argp_state *state, const char *argument)
+{
+    if (strcmp(argument, "random") == 0)
+        arguments->options.seeds = SURFACE_RANDOM;
+    else if (strcmp(argument, "descent") == 0)
+        arguments->options.seeds = SURFACE_DESCENT;
+    else
+        argp_error(state, "--seeds %s: must be descent or random", argument);
+}
+
+static void set_input(struct arguments *arguments, struct argp_state *state, const char *argument)
+{
+    if (arguments->input)
+        argp_error(state, "%s: one sculpture at a time, and %s was named before", argument, arguments->input);
+    arguments->input = argument;
+}
+
+static void check_arguments(const struct arguments *arguments, struct argp_state *state)
+{
+    const struct surface_options *options = &arguments->options;
+    if (!arguments->input)
+        argp_error(state, "which sculpture? balloon-surface FILE.oct -o FILE.ply");
+    if (!arguments->output && !arguments->info && !arguments->render)
+        argp_error(state, "nothing to do: give -o FILE.ply, --info or --render FILE.png");
+    if (arguments->output && !file_has_extension(arguments->output, "ply") &&
+        !file_has_extension(arguments->output, "stl") && !file_has_extension(arguments->output, "obj"))
+        argp_error(state, "-o %s: the name must end in .ply, .stl or .obj", arguments->output);
+    if (arguments->render && !file_has_extension(arguments->render, "png"))
+        argp_error(state, "--render %s: the name must end in .png", arguments->render);
+    if (options->cube_size > 0 && options->triangles)
+        argp_error(state, "--cube-size and --triangles: give one of them, each decides the other");
+    if (options->field.fields_per_cube == 0 && options->field.fields_per_area == 0)
+        argp_error(state,
+                   "--fields-per-cube 0: then --fields-per-area must be above 0, or there is no field");
+}
+
+static error_t parse(int key, char *argument, struct argp_state *state)
+{
+    struct arguments *arguments = state->input;
+    struct surface_options *options = &arguments->options;
+    switch (key) {
+    case 'o':
+        arguments->output = argument;
+        break;
+    case 'q':
+        command_set_quiet(true);
+        break;
+    case KEY_CUBE_SIZE:
+        options->cube_size = command_number(state, "--cube-size", argument, 1e-6, 1e6);
+        break;
+    case KEY_TRIANGLES:
+        options->triangles = (uint32_t)command_whole(state, "--triangles", argument, 8, 2000000000);
+        break;
+    case KEY_PER_CUBE:
+        options->field.fields_per_cube = fields_per_cube(state, argument);
+        break;
+    case KEY_PER_AREA:
+        options->field.fields_per_area = command_number(state, "--fields-per-area", argument, 0, 1e7);
+        break;
+    case KEY_SIGMA:
+        set_sigma(arguments, state, argument);
+        break;
+    case KEY_THRESHOLD:
+        options->threshold = command_number(state, "--threshold", argument, 1e-6, 1e6);
+        break;
+    case KEY_CUTOFF:
+        options->field.cutoff = command_number(state, "--cutoff", argument, 2, 8);
+        break;
+    case KEY_SEEDS:
+        set_seeds(arguments, state, argument);
+        break;
+    case KEY_SEED:
+        options->seed = (uint64_t)command_whole(state, "--seed", argument, 0, INT64_MAX);
+        break;
+    case KEY_INFO:
+        arguments->info = true;
+        break;
+    case KEY_RENDER:
+        arguments->render = argument;
+        break;
+    case ARGP_KEY_ARG:
+        set_input(arguments, state, argument);
+        break;
+    case ARGP_KEY_END:
+        check_arguments(arguments, state);
+        break;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+    return 0;
+}
+
+static void show_progress(void *context, double done)
+{
+    (void)context;
+    progress_update(100 * done);
+}
+
+static void print_info(const struct mesh *mesh, const struct surface_stats *stats,
+                       const struct surface_shape *shape, enum surface_seeds seeds)
+{
+    printf("triangles        %u\n", mesh->triangle_count);
+    printf("points           %u\n", mesh->point_count);
+    printf("components       %zu\n", shape->components);
+    printf("euler            %ld\n", shape->euler);
+    printf("volume           %.9g\n", shape->volume);
+    printf("area             %.9g\n", shape->area);
+    printf("cube_size        %.9g\n", stats->cube_size);
+    printf("mean_edge        %.6g\n", shape->mean_edge);
+    printf("shortest_edge    %.4f of the mean\n", shape->shortest_edge / shape->mean_edge);
+    printf("longest_edge     %.4f of the mean\n", shape->longest_edge / shape->mean_edge);
+    printf("smallest_angle   %.2f degrees\n", shape->smallest_angle_deg);
+    printf("worst_residual   %.2e of |f - T| at a point\n", stats->worst_residual);
+    printf("evaluations      %.2f a triangle at points, %.2f on the grid\n",
+           (double)stats->evaluations / mesh->triangle_count, (double)stats->samples / mesh->triangle_count);
+    printf("memory           %.0f bytes a triangle\n", (double)stats->bytes / mesh->triangle_count);
+    if (seeds == SURFACE_RANDOM)
+        printf("seeds            %zu of %zu parts found by random points alone\n", stats->seeds_random,
+               stats->seeds);
+    else
+        printf("seeds            %zu parts found by descent\n", stats->seeds);
+}
+
+static enum status draw(const struct mesh *mesh, const char *path, struct error *err)
+{
+    struct render_view view = {.width = 960, .height = 720, .sorted = true, .smooth_edges = true};
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    const double from[3] = {0.45, 0.35, 1};
+    for (uint32_t i = 0; i < mesh->point_count; i++)
+        for (int axis = 0; axis < 3; axis++) {
+            low[axis] = fmin(low[axis], mesh->position[i][axis]);
+            high[axis] = fmax(high[axis], mesh->position[i][axis]);
+        }
+    struct render_skin skin = {.mesh = mesh, .colour = {0.75f, 0.03f, 0.04f}};
+    struct render *render = NULL;
+    struct image image = {0};
+    enum status status = render_fit_camera(&view, low, high, from, 0.1, err);
+    if (status == STATUS_OK)
+        status = render_open(view.width, view.height, &render, err);
+    if (status == STATUS_OK)
+        status = render_draw(render, &view, &skin, 1, &image, err);
+    if (status == STATUS_OK)
+        status = image_save_png(&image, path, NULL, 0, err);
+    image_clear(&image);
+    render_close(render);
+    return status;
+}
+
+static enum status report(struct mesh *mesh, const struct arguments *arguments,
+                          const struct surface_stats *stats, struct error *err)
+{
+    struct surface_shape shape;
+    if (arguments->output && mesh_save(mesh, arguments->output, err))
+        return err->status;
+    if (arguments->render && draw(mesh, arguments->render, err))
+        return err->status;
+    if (arguments->info) {
+        if (mesh_connect(mesh, err) || surface_measure(mesh, &shape, err))
+            return err->status;
+        print_info(mesh, stats, &shape, arguments->options.seeds);
+    }
+    double wanted = arguments->options.triangles;
+    if (wanted > 0 && fabs(mesh->triangle_count / wanted - 1) > 0.05)
+        command_note("%u triangles: at no cube size tried were there %.0f; their number goes in steps",
+                     mesh->triangle_count, wanted);
+    return STATUS_OK;
+}
+
+static enum status check_files(const struct arguments *arguments, struct error *err)
+{
+    const char *targets[] = {arguments->output, arguments->render};
+    for (int i = 0; i < 2; i++)
+        if (targets[i] && file_same(targets[i], arguments->input))
+            return error_set(err, STATUS_FILE, "%s: is the sculpture itself; write to another file",
+                             targets[i]);
+    return STATUS_OK;
+}
+
+static enum status make(struct arguments *arguments, const struct octree *tree, struct error *err)
+{
+    struct mesh mesh = {0};
+    struct surface_stats stats;
+    if (arguments->sigma_in_units) {
+        arguments->options.field.sigma *= 1 << tree->depth;
+        if (arguments->options.field.sigma < 0.01)
+            return error_set(err, STATUS_RANGE, "--sigma %gu: too small for cells of %g; at least %gu",
+                             arguments->options.field.sigma / (1 << tree->depth), 1.0 / (1 << tree->depth),
+                             0.01 / (1 << tree->depth));
+    }
+    progress_begin("meshing", "%", 100);
+    enum status status = surface_make(tree, &arguments->options, &mesh, &stats, err);
+    progress_end();
+    if (status != STATUS_OK)
+        return error_prefix(err, arguments->input);
+    status = report(&mesh, arguments, &stats, err);
+    mesh_clear(&mesh);
+    return status;
+}
+
+int main(int argc, char **argv)
+{
+    static const struct argp argp = {
+        option_list,
+        parse,
+        "FILE.oct",
+        "Lays Gaussians over a sculpture and writes the surface where their sum passes a threshold as a closed mesh "
+        "of triangles.",
+        NULL,
+        NULL,
+        NULL};
+    struct arguments arguments = {.options = surface_defaults()};
+    struct error err = {0};
+    struct octree tree = {0};
+    command_begin("balloon-surface");
+    arguments.options.seed = 1;
+    arguments.options.progress = show_progress;
+    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    enum status status = check_files(&arguments, &err);
+    if (status == STATUS_OK)
+        status = octree_load(arguments.input, &tree, &err);
+    if (status == STATUS_OK)
+        status = make(&arguments, &tree, &err);
+    octree_clear(&tree);
+    return status == STATUS_OK ? command_end() : command_fail(&err);
+}

@@ -1,0 +1,70 @@
+#include "common/array.h"
+#include "common/vec3.h"
+#include "surface/surface.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static uint32_t root_of(uint32_t *parent, uint32_t point)
+{
+    while (parent[point] != point)
+        point = parent[point] = parent[parent[point]];
+    return point;
+}
+
+static bool count_components(const struct mesh *mesh, size_t *count)
+{
+    uint32_t *parent = array_new(mesh->point_count, sizeof *parent);
+    if (!parent)
+        return false;
+    *count = mesh->point_count;
+    for (uint32_t i = 0; i < mesh->point_count; i++)
+        parent[i] = i;
+    for (uint32_t i = 0; i < mesh->edge_count; i++) {
+        uint32_t a = root_of(parent, mesh->edge[i][0]), b = root_of(parent, mesh->edge[i][1]);
+        parent[a > b ? a : b] = a > b ? b : a;
+        *count -= a != b;
+    }
+    free(parent);
+    return true;
+}
+
+static double smallest_angle(const struct mesh *mesh, const uint32_t triangle[3])
+{
+    double least = M_PI;
+    for (int k = 0; k < 3; k++) {
+        const double *corner = mesh->position[triangle[k]];
+        double a[3], b[3], across[3];
+        vec3_sub(mesh->position[triangle[(k + 1) % 3]], corner, a);
+        vec3_sub(mesh->position[triangle[(k + 2) % 3]], corner, b);
+        vec3_cross(a, b, across);
+        least = fmin(least, atan2(vec3_length(across), vec3_dot(a, b)));
+    }
+    return least * 180 / M_PI;
+}
+
+static void measure_edges(const struct mesh *mesh, struct surface_shape *shape)
+{
+    double total = 0;
+    shape->shortest_edge = INFINITY;
+    for (uint32_t i = 0; i < mesh->edge_count; i++) {
+        double length = vec3_distance(mesh->position[mesh->edge[i][0]], mesh->position[mesh->edge[i][1]]);
+        shape->shortest_edge = fmin(shape->shortest_edge, length);
+        shape->longest_edge = fmax(shape->longest_edge, length);
+        total += length;
+    }
+    shape->mean_edge = total / mesh->edge_count;
+}
+
+enum status surface_measure(const struct mesh *mesh, struct surface_shape *shape, struct error *err)
+{
+    *shape = (struct surface_shape){.volume = mesh_volume(mesh), .area = mesh_area(mesh)};
+    if (!count_components(mesh, &shape->components))
+        return error_no_memory(err, "the components");
+    shape->euler = (long)mesh->point_count - (long)mesh->edge_count + (long)mesh->triangle_count;
+    measure_edges(mesh, shape);
+    shape->smallest_angle_deg = 180;
+    for (uint32_t i = 0; i < mesh->triangle_count; i++)
+        shape->smallest_angle_deg = fmin(shape->smallest_angle_deg, smallest_angle(mesh, mesh->triangle[i]));
+    return STATUS_OK;
+}

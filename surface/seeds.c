@@ -1,0 +1,241 @@
+/* Where the following begins: by descent, and by the paper's random points. */
+#include "common/random.h"
+#include "surface/mesher.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/*
+ * Proof that a brick can be left out. Let all cells within `reach` of a box be of one material k (or all empty,
+ * b_k = 0). Of a point of the box, let M be the sum of the one-dimensional Gaussians of the whole lattice, between
+ * `least` and `most`, and at most `tail` what of it lies further than `reach` to either side. Then the near cells
+ * contribute between b_k (least - tail)^3 and b_k most^3, and all others at most B 3 tail most^2, B = max |b|; of
+ * area fields there are only others. If the threshold is not in between, the box is on one side of it.
+ */
+struct bounds {
+    double reach;                    /* in cells */
+    bool excluded[OCTREE_MATERIALS]; /* a box in the midst of this material is on one side */
+};
+
+struct sums {
+    double least, most, tail;
+};
+
+static struct sums lattice_sums(const struct field *field, const struct field_lattice *lattice, double reach)
+{
+    double s = field->sigma, R = field->cutoff, r = reach / s;
+    if (!lattice->used)
+        return (struct sums){0, 0, 0};
+    if (lattice->spacing == 0)
+        return (struct sums){1, 1, r < R ? erfc(r / M_SQRT2) : 0};
+    /* By Poisson's sum formula the sum over the whole lattice ripples about weight s sqrt(2 pi) / spacing = `mean` by
+     * at most 2 sum exp(-2 (pi j s/spacing)^2) of it; cutting off takes away no more than `cut`. */
+    double mean = lattice->weight * s * sqrt(2 * M_PI) / lattice->spacing, ripple = 0;
+    for (int j = 1; j < 50; j++)
+        ripple += 2 * exp(-2 * pow(M_PI * j * s / lattice->spacing, 2));
+    double floor_value = exp(-R * R / 2), points = 2 * R * s / lattice->spacing + 1;
+    double shrink = 1 - floor_value;
+    double cut = lattice->weight * (points + 2) * floor_value + mean * erfc(R / M_SQRT2);
+    double most = fmin(mean * (1 + ripple), mean + lattice->weight) / shrink;
+    /* The first point of either tail and the integral over the rest. */
+    double tail = r < R ? (2 * lattice->weight * exp(-r * r / 2) + mean * erfc(r / M_SQRT2)) / shrink : 0;
+    return (struct sums){fmax(mean * (1 - ripple) - cut, 0), most, tail};
+}
+
+/* Whether a box of coefficient b, `far` being the most that others contribute, is on one side of the threshold. */
+static bool one_sided(double b, struct sums volume, double far, double threshold)
+{
+    double near = fmax(volume.least - volume.tail, 0), low = b * pow(near, 3), high = b * pow(volume.most, 3);
+    return threshold < fmin(low, high) - far || threshold > fmax(low, high) + far;
+}
+
+static struct bounds bounds_at(const struct mesher *m, double reach)
+{
+    const struct field *field = m->field;
+    struct bounds bounds = {.reach = reach};
+    struct sums volume = lattice_sums(field, &field->lattice[TRACK_VOLUME], reach);
+    struct sums area = lattice_sums(field, &field->lattice[TRACK_AREA], reach);
+    struct sums plane = lattice_sums(field, &field->lattice[TRACK_PLANE], reach);
+    double largest = 0;
+    for (int k = 1; k < OCTREE_MATERIALS; k++)
+        largest = fmax(largest, fabs(field->coefficient[k]));
+    double far = 3 * volume.tail * volume.most * volume.most +
+                 3 * (plane.tail * area.most * area.most + 2 * plane.most * area.tail * area.most);
+    /* Sums are rounded: a margin well above that, well below anything that matters. */
+    far = largest * (far + 1e-12);
+    for (int k = 0; k < OCTREE_MATERIALS; k++)
+        bounds.excluded[k] = one_sided(field->coefficient[k], volume, far, m->threshold);
+    return bounds;
+}
+
+static int count_excluded(const struct bounds *bounds)
+{
+    int count = 0;
+    for (int k = 0; k < OCTREE_MATERIALS; k++)
+        count += bounds->excluded[k];
+    return count;
+}
+
+/* The shortest reach that excludes as many materials as the longest does. */
+static struct bounds find_bounds(const struct mesher *m)
+{
+    struct bounds longest = bounds_at(m, m->field->reach);
+    for (double r = 0.25; r < m->field->cutoff; r += 0.125) {
+        struct bounds bounds = bounds_at(m, r * m->field->sigma);
+        if (bounds.excluded[0] && count_excluded(&bounds) == count_excluded(&longest))
+            return bounds;
+    }
+    return longest;
+}
+
+struct survey {
+    const int *low, *high;
+    int material; /* of all leaves met so far; 0 when none */
+    bool mixed;
+    double volume; /* of them, within low .. high, in cells */
+};
+
+static bool survey_leaf(void *context, const struct octree_leaf *leaf)
+{
+    struct survey *survey = context;
+    int start[3] = {leaf->x, leaf->y, leaf->z};
+    double volume = 1;
+    for (int axis = 0; axis < 3; axis++)
+        volume *= fmin(start[axis] + leaf->side - 1, survey->high[axis]) -
+                  fmax(start[axis], survey->low[axis]) + 1;
+    survey->volume += volume;
+    survey->mixed = survey->material && survey->material != (int)leaf->material;
+    survey->material = (int)leaf->material;
+    return !survey->mixed;
+}
+
+/* The material of all cells low .. high; -1 where they differ. Cells outside the cube are empty. */
+static int only_material(const struct octree *tree, const int low[3], const int high[3])
+{
+    int side = 1 << tree->depth, inside_low[3], inside_high[3];
+    double volume = 1;
+    for (int axis = 0; axis < 3; axis++) {
+        volume *= high[axis] - low[axis] + 1;
+        inside_low[axis] = low[axis] < 0 ? 0 : low[axis];
+        inside_high[axis] = high[axis] >= side ? side - 1 : high[axis];
+        if (inside_low[axis] > inside_high[axis])
+            return 0;
+    }
+    unsigned corner = octree_at(tree, low[0], low[1], low[2]);
+    if (corner != octree_at(tree, high[0], high[1], high[2]))
+        return -1;
+    struct survey survey = {.low = inside_low, .high = inside_high};
+    octree_visit(tree, inside_low, inside_high, survey_leaf, &survey);
+    if (survey.mixed || (survey.material && survey.volume < volume))
+        return -1;
+    return survey.material;
+}
+
+static bool left_out(const struct mesher *m, const struct bounds *bounds, const int low[3], const int high[3])
+{
+    int cell_low[3], cell_high[3];
+    for (int axis = 0; axis < 3; axis++) {
+        double start = grid_coordinate(&m->grid, low[axis] * BRICK) - bounds->reach;
+        double end = grid_coordinate(&m->grid, (high[axis] + 1) * BRICK) + bounds->reach;
+        cell_low[axis] = (int)floor(fmax(start, -1));
+        cell_high[axis] = (int)floor(fmin(end, m->field->side));
+    }
+    int material = only_material(m->field->tree, cell_low, cell_high);
+    return material >= 0 && bounds->excluded[material];
+}
+
+/* Looks at the bricks low .. high, by halves along the longest axis. */
+static void descend(struct mesher *m, const struct bounds *bounds, const int low[3], const int high[3])
+{
+    if (m->failed || left_out(m, bounds, low, high))
+        return;
+    int axis = 0;
+    for (int k = 1; k < 3; k++)
+        if (high[k] - low[k] > high[axis] - low[axis])
+            axis = k;
+    if (low[axis] == high[axis]) {
+        uint32_t brick = brick_get(m, low);
+        if (brick != MESH_NONE)
+            follow_brick(m, brick);
+        return;
+    }
+    int middle = low[axis] + (high[axis] - low[axis]) / 2;
+    int first_high[3] = {high[0], high[1], high[2]}, second_low[3] = {low[0], low[1], low[2]};
+    first_high[axis] = middle;
+    second_low[axis] = middle + 1;
+    descend(m, bounds, low, first_high);
+    descend(m, bounds, second_low, high);
+}
+
+void seeds_descent(struct mesher *m)
+{
+    struct bounds bounds = find_bounds(m);
+    descend(m, &bounds, m->grid.brick_low, m->grid.brick_high);
+}
+
+static bool corner_inside(struct mesher *m, const int corner[3])
+{
+    double value = 0;
+    m->samples++;
+    if (!grid_sample(&m->grid, corner, 1, &m->scratch, &value))
+        m->failed = true;
+    return value >= m->threshold;
+}
+
+/* The corner after `steps` steps from a to b: first along x, then y, then z. */
+static void on_the_way(const int a[3], const int b[3], long steps, int corner[3])
+{
+    for (int axis = 0; axis < 3; axis++) {
+        long length = labs((long)b[axis] - a[axis]), part = steps < length ? steps : length;
+        corner[axis] = a[axis] + (int)(b[axis] > a[axis] ? part : -part);
+        steps -= part;
+    }
+}
+
+/* Halves the way between two corners on different sides down to one edge, and follows the surface from there. True
+ * when that part of it is new. */
+static bool follow_between(struct mesher *m, const int a[3], const int b[3])
+{
+    long low = 0, high = 0;
+    for (int axis = 0; axis < 3; axis++)
+        high += labs((long)b[axis] - a[axis]);
+    bool begin = corner_inside(m, a);
+    while (high - low > 1 && !m->failed) {
+        int corner[3];
+        long middle = low + (high - low) / 2;
+        on_the_way(a, b, middle, corner);
+        *(corner_inside(m, corner) == begin ? &low : &high) = middle;
+    }
+    int p[3], q[3], brick_at[3], cell = 0;
+    on_the_way(a, b, low, p);
+    on_the_way(a, b, high, q);
+    for (int axis = 2; axis >= 0; axis--) {
+        int line = p[axis] < q[axis] ? p[axis] : q[axis];
+        brick_at[axis] = line >= 0 ? line / BRICK : -((BRICK - 1 - line) / BRICK);
+        cell = cell * BRICK + (line - brick_at[axis] * BRICK);
+    }
+    uint32_t brick = brick_get(m, brick_at);
+    if (brick == MESH_NONE || m->bricks.items[brick].followed[cell / 64] >> cell % 64 & 1)
+        return false;
+    follow(m, brick, cell);
+    return true;
+}
+
+void seeds_random(struct mesher *m, uint64_t seed)
+{
+    enum { TRIES = 400 }; /* points in a row that lead to nothing new, after which it gives up */
+    int corner[3] = {0, 0, 0}, other[2][3];
+    bool known[2] = {false, false};
+    for (int tries = 0; tries < TRIES && !m->failed; tries++) {
+        int side = corner_inside(m, corner);
+        if (known[!side] && follow_between(m, corner, other[!side]))
+            tries = 0;
+        known[side] = true;
+        for (int axis = 0; axis < 3; axis++) {
+            other[side][axis] = corner[axis];
+            int first = m->grid.brick_low[axis] * BRICK;
+            int count = (m->grid.brick_high[axis] - m->grid.brick_low[axis] + 1) * BRICK + 1;
+            corner[axis] = first + (int)(random_unit(&seed) * count);
+        }
+    }
+}

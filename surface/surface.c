@@ -1,0 +1,200 @@
+#include "surface/surface.h"
+
+#include "surface/largest.h"
+#include "surface/mesher.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+struct surface_options surface_defaults(void)
+{
+    return (struct surface_options){.field = {FIELDS_EXACT, 0, 0.35, 6}, .threshold = 0.5};
+}
+
+/* What one sculpture's surface is made with. */
+struct making {
+    const struct octree *tree;
+    const struct surface_options *options;
+    struct octree_info info;
+    struct field field;
+    struct surface_stats *stats;
+};
+
+/* A surface of area A, of the sculpture's exposed faces, crosses A / h^2 edges of a grid of cubes h: each face
+ * A / 3 of the edges across it, whatever way the true surface bends. Twice as many triangles. */
+static double expected_points(const struct making *making, double cube)
+{
+    return (double)making->info.exposed_faces / (cube * cube);
+}
+
+/* Bytes at the peak for each point: its vertex, its place in the mesh, two triangles twice, its share of a brick. */
+enum { POINT_BYTES = 170 };
+
+static double usable_memory(void)
+{
+    double pages = (double)sysconf(_SC_PHYS_PAGES), page = (double)sysconf(_SC_PAGESIZE);
+    return pages > 0 && page > 0 ? 0.8 * pages * page : 1e18;
+}
+
+static enum status check_memory(const struct making *making, double cube, struct error *err)
+{
+    double points = expected_points(making, cube), bytes = points * POINT_BYTES;
+    double most = fmin(usable_memory() / POINT_BYTES, 0.4 * MESH_NONE);
+    if (points <= most)
+        return STATUS_OK;
+    return error_set(err, STATUS_RANGE,
+                     "a cube size of %g is too small: about %.2g triangles in %.2g GB of memory; %.2g works",
+                     cube / making->field.side, 2 * points, bytes / 1e9,
+                     cube / making->field.side * sqrt(points / most));
+}
+
+/* Finds the surface at a cube size given in cells; m is to be cleared when STATUS_OK. */
+static enum status find(const struct making *making, double cube, bool count_only, struct mesher *m,
+                        struct error *err)
+{
+    const struct surface_options *options = making->options;
+    if (check_memory(making, cube, err) || mesher_init(m, &making->field, options->threshold, cube, err))
+        return err->status;
+    m->count_only = count_only;
+    m->vertices_expected = (size_t)expected_points(making, cube);
+    m->progress = count_only ? NULL : options->progress;
+    m->progress_context = options->progress_context;
+    making->stats->seeds_random = 0;
+    if (options->seeds == SURFACE_RANDOM) {
+        seeds_random(m, options->seed);
+        making->stats->seeds_random = m->follows;
+    }
+    seeds_descent(m);
+    making->stats->seeds = m->follows;
+    making->stats->samples += m->samples;
+    if (!m->failed && !m->probe.failed)
+        return STATUS_OK;
+    mesher_clear(m);
+    return error_no_memory(err, "the surface");
+}
+
+static enum status count_points(const struct making *making, double cube, size_t *count, struct error *err)
+{
+    struct mesher *m = malloc(sizeof *m);
+    if (!m)
+        return error_no_memory(err, "the surface");
+    enum status status = find(making, cube, true, m, err);
+    if (status == STATUS_OK) {
+        *count = m->vertices.count;
+        mesher_clear(m);
+    }
+    free(m);
+    return status;
+}
+
+static double default_cube(const struct making *making)
+{
+    int extent = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        int length = making->info.high[axis] - making->info.low[axis] + 1;
+        extent = length > extent ? length : extent;
+    }
+    return fmin(1.0 / 3, extent / 24.0);
+}
+
+/* Chooses the cube size for a number of triangles. Their number falls like 1/h^2, though in steps: each turn
+ * corrects by that law, halving instead where that would leave the sizes known to give too many and too few. */
+static enum status choose_cube(const struct making *making, double *cube, struct error *err)
+{
+    double wanted = making->options->triangles / 2.0, low = 0, high = INFINITY, best = INFINITY;
+    double size = sqrt(expected_points(making, 1) / wanted);
+    *cube = size;
+    for (int turn = 0; turn < 24 && best > 0.01; turn++) {
+        size_t count = 0;
+        if (count_points(making, size, &count, err))
+            return err->status;
+        double off = fabs((double)count / wanted - 1);
+        if (off < best) {
+            best = off;
+            *cube = size;
+        }
+        *((double)count > wanted ? &low : &high) = size;
+        double next = size * sqrt((double)count / wanted);
+        if (!(next > low && next < high))
+            next = low > 0 && isfinite(high) ? sqrt(low * high) : low > 0 ? 1.5 * low : high / 1.5;
+        size = next;
+    }
+    return STATUS_OK;
+}
+
+/* Says why there is no surface. */
+static enum status explain_nothing(const struct making *making, double cube, struct error *err)
+{
+    double value, point[3], threshold = making->options->threshold;
+    if (field_largest(&making->field, &value, point, err))
+        return err->status;
+    if (value < threshold)
+        return error_set(
+            err, STATUS_INPUT,
+            "no point reaches the threshold %g: the largest value of the field found is %.4g, at (%.4g, "
+            "%.4g, %.4g); lower the threshold or sigma, or use more fields",
+            threshold, value, point[0] / making->field.side, point[1] / making->field.side,
+            point[2] / making->field.side);
+    double works = fmin(cube, 2 * (making->field.side + making->field.reach));
+    size_t count = 0;
+    for (int turn = 0; turn < 40 && count == 0; turn++) {
+        works /= 1.25;
+        if (count_points(making, works, &count, err))
+            return err->status;
+    }
+    return error_set(
+        err, STATUS_RANGE,
+        "a cube size of %g is too large: no corner of a cube falls inside the surface; %.4g works",
+        cube / making->field.side, works / making->field.side);
+}
+
+static enum status make_at(const struct making *making, double cube, struct mesh *mesh, struct error *err)
+{
+    struct mesher *m = malloc(sizeof *m);
+    if (!m)
+        return error_no_memory(err, "the surface");
+    enum status status = find(making, cube, false, m, err);
+    if (status == STATUS_OK) {
+        size_t points = m->vertices.count;
+        size_t bricks = m->bricks.capacity * sizeof *m->bricks.items + m->slot_count * sizeof *m->slots +
+                        m->stack.capacity * sizeof *m->stack.items;
+        size_t vertices = m->vertices.capacity * sizeof *m->vertices.items;
+        status = points ? mesher_assemble(m, mesh, err) : explain_nothing(making, cube, err);
+        size_t placed = points * 2 * sizeof(double[3]);
+        making->stats->evaluations += m->probe.evaluations;
+        making->stats->worst_residual = m->worst_residual;
+        making->stats->bytes = bricks + placed +
+                               (vertices > 2 * points * 12 ? vertices : 2 * points * sizeof(uint32_t[3]));
+        mesher_clear(m);
+    }
+    free(m);
+    return status;
+}
+
+static enum status check_options(const struct surface_options *o, struct error *err)
+{
+    if (!(o->threshold > 0 && isfinite(o->threshold)))
+        return error_set(err, STATUS_RANGE, "a threshold of %g: must be above 0", o->threshold);
+    if (!(o->cube_size >= 0 && o->cube_size <= 1e6))
+        return error_set(err, STATUS_RANGE, "a cube size of %g: must be above 0 and at most 1e6",
+                         o->cube_size);
+    return STATUS_OK;
+}
+
+enum status surface_make(const struct octree *tree, const struct surface_options *options, struct mesh *mesh,
+                         struct surface_stats *stats, struct error *err)
+{
+    *stats = (struct surface_stats){0};
+    struct making making = {.tree = tree, .options = options, .stats = stats};
+    if (check_options(options, err) || field_init(&making.field, tree, &options->field, err))
+        return err->status;
+    making.info = octree_measure(tree);
+    if (making.info.full_leaves == 0)
+        return error_set(err, STATUS_INPUT, "the sculpture is empty: there is no surface around nothing");
+    double cube = options->cube_size > 0 ? options->cube_size * making.field.side : default_cube(&making);
+    if (options->cube_size <= 0 && options->triangles && choose_cube(&making, &cube, err))
+        return err->status;
+    stats->cube_size = cube / making.field.side;
+    return make_at(&making, cube, mesh, err);
+}
