@@ -67,17 +67,16 @@ bool octree_equal(const struct octree *a, const struct octree *b);
 /* The material of one cell; 0 outside the cube. */
 unsigned octree_at(const struct octree *tree, int x, int y, int z);
 
-/* How a shape covers a box. */
-enum octree_cover {
-    OCTREE_OUTSIDE, /* not at all */
-    OCTREE_INSIDE,  /* wholly */
-    OCTREE_CROSSES, /* in part, or not known: look at the children */
+/* How a shape covers eight cubes: bit i speaks of cube i. A cube with neither bit is crossed, or not known: its
+ * eight parts are asked about in turn. */
+struct octree_cover {
+    unsigned inside, outside; /* wholly covered; not at all */
 };
 
-/* Says how a shape covers the cube with its lower corner at `corner` and this side, both in units of the
- * cube. For a cell that can be split no further `cell` is true, and the answer is OCTREE_INSIDE or
- * OCTREE_OUTSIDE by whether the cell's centre belongs to the shape. */
-typedef enum octree_cover octree_shape(const void *shape, const double corner[3], double side, bool cell);
+/* Says how a shape covers the eight cubes of this side that share the point corner + side; number x + 2 y + 4 z
+ * lies at corner + side (x, y, z), in units of the octree's cube. When `cells` is true they cannot be split
+ * further, and only `inside` counts: whether a cell's centre belongs to the shape. */
+typedef struct octree_cover octree_shape(const void *shape, const double corner[3], double side, bool cells);
 
 /* Makes what the shape covers of this material (0 chips it away), splitting where the shape cuts a node and
  * merging where eight children agree. Returns STATUS_NO_MEMORY, then with the tree whole but the shape partly

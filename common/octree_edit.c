@@ -14,23 +14,29 @@ struct edit {
 static octree_node edit_node(struct edit *edit, octree_node node, const double corner[3], double side,
                              unsigned level);
 
-static octree_node edit_child(struct edit *edit, octree_node child, int i, const double corner[3],
-                              double half, unsigned level)
+/* The node that takes the place of child i of a cube, when its eight children are covered so. `level` is the
+ * number of halvings that are left to the child. */
+static inline octree_node edit_child(struct edit *edit, struct octree_cover cover, octree_node child, int i,
+                                     const double corner[3], double side, unsigned level)
 {
-    if (edit->failed || child == edit->material)
+    if (cover.inside >> i & 1) {
+        octree_release(edit->tree, child);
+        return edit->material;
+    }
+    if (cover.outside >> i & 1 || child == edit->material || edit->failed)
         return child;
-    const double at[3] = {corner[0] + (i & 1 ? half : 0), corner[1] + (i & 2 ? half : 0),
-                          corner[2] + (i & 4 ? half : 0)};
-    return edit_node(edit, child, at, half, level);
+    const double at[3] = {corner[0] + (i & 1 ? side : 0), corner[1] + (i & 2 ? side : 0),
+                          corner[2] + (i & 4 ? side : 0)};
+    return edit_node(edit, child, at, side, level);
 }
 
 /* Children are made on the stack, so that a leaf whose children end up alike costs no block. */
-static octree_node edit_leaf(struct edit *edit, octree_node leaf, const double corner[3], double half,
-                             unsigned level)
+static octree_node edit_leaf(struct edit *edit, struct octree_cover cover, octree_node leaf,
+                             const double corner[3], double half, unsigned level)
 {
     octree_node children[8], node;
     for (int i = 0; i < 8; i++)
-        children[i] = edit_child(edit, leaf, i, corner, half, level);
+        children[i] = edit_child(edit, cover, leaf, i, corner, half, level);
     if (octree_join(edit->tree, children, &node))
         return node;
     edit->failed = true;
@@ -39,23 +45,39 @@ static octree_node edit_leaf(struct edit *edit, octree_node leaf, const double c
     return leaf;
 }
 
-/* The node that takes the place of `node`. `level` is the number of halvings left. */
+/* The same for children that are cells: they are leaves and are not crossed. */
+static octree_node edit_cells(struct edit *edit, unsigned inside, octree_node node)
+{
+    octree_node cells[8];
+    if (inside == 0 || node == edit->material)
+        return node;
+    if (node_is_split(node)) {
+        octree_node *cell = edit->tree->blocks + node_children(node);
+        for (int i = 0; i < 8; i++)
+            cell[i] = inside >> i & 1 ? edit->material : cell[i];
+        return octree_merge(edit->tree, node);
+    }
+    for (int i = 0; i < 8; i++)
+        cells[i] = inside >> i & 1 ? edit->material : node;
+    if (!octree_join(edit->tree, cells, &node))
+        edit->failed = true;
+    return node;
+}
+
+/* The node that takes the place of one that the shape crosses. */
 static octree_node edit_node(struct edit *edit, octree_node node, const double corner[3], double side,
                              unsigned level)
 {
-    enum octree_cover cover = edit->covers(edit->shape, corner, side, level == 0);
-    if (cover == OCTREE_OUTSIDE)
-        return node;
-    if (cover == OCTREE_INSIDE) {
-        octree_release(edit->tree, node);
-        return edit->material;
-    }
-    assert(level > 0);
+    const double half = side / 2;
+    level--;
+    struct octree_cover cover = edit->covers(edit->shape, corner, half, level == 0);
+    if (level == 0)
+        return edit_cells(edit, cover.inside, node);
     if (!node_is_split(node))
-        return edit_leaf(edit, node, corner, side / 2, level - 1);
+        return edit_leaf(edit, cover, node, corner, half, level);
     for (int i = 0; i < 8; i++) {
         octree_node child = edit->tree->blocks[node_children(node) + i];
-        child = edit_child(edit, child, i, corner, side / 2, level - 1);
+        child = edit_child(edit, cover, child, i, corner, half, level);
         edit->tree->blocks[node_children(node) + i] = child; /* blocks may have moved meanwhile */
     }
     return octree_merge(edit->tree, node);
@@ -66,9 +88,11 @@ enum status octree_apply(struct octree *tree, octree_shape *covers, const void *
 {
     assert(material < OCTREE_MATERIALS);
     struct edit edit = {tree, covers, shape, material, false};
-    const double corner[3] = {0};
-    if (tree->root != material)
-        tree->root = edit_node(&edit, tree->root, corner, 1, tree->depth);
+    const double corner[3] = {0}; /* the root is the first child of a cube of side 2 */
+    struct octree_cover cover = covers(shape, corner, 1, tree->depth == 0);
+    if (tree->depth == 0)
+        cover.outside = ~cover.inside;
+    tree->root = edit_child(&edit, cover, tree->root, 0, corner, 1, tree->depth);
     return edit.failed ? error_no_memory(err, "the octree") : STATUS_OK;
 }
 

@@ -11,129 +11,170 @@
 
 #include <math.h>
 
-static void centres(const struct shape *shape, const double corner[3], double side, double low[3],
-                    double high[3])
+/* Without fmin's and fmax's care for NaN, which cannot be here, these are one instruction. */
+static inline double lesser(double a, double b)
 {
-    for (int k = 0; k < 3; k++) {
-        low[k] = corner[k] + shape->half_cell;
-        high[k] = corner[k] + (side - shape->half_cell);
+    return a < b ? a : b;
+}
+
+static inline double greater(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* The centres of the cells in the lower and the upper cubes along axis k: from the first to the last. */
+static inline void centres(const struct shape *shape, const double corner[3], double side, int k,
+                           double first[2], double last[2])
+{
+    for (int upper = 0; upper < 2; upper++) {
+        double start = corner[k] + upper * side;
+        first[upper] = start + shape->half_cell;
+        last[upper] = start + (side - shape->half_cell);
     }
+}
+
+/* The eight sums of one number for each axis, which is different for the lower and upper cubes. */
+static inline void add_up(const double x[2], const double y[2], const double z[2], double sum[8])
+{
+    for (int i = 0; i < 8; i++)
+        sum[i] = x[i & 1] + y[i >> 1 & 1] + z[i >> 2];
 }
 
 /* Half-open, so that boxes side by side share no cell even where their border runs through centres. */
-static enum octree_cover box_covers(const void *context, const double corner[3], double side, bool cell)
+static struct octree_cover box_covers(const void *context, const double corner[3], double side, bool cells)
 {
-    (void)cell;
+    (void)cells;
+    /* the numbers of the lower and of the upper cubes along each axis */
+    static const unsigned numbers[3][2] = {{0x55, 0xaa}, {0x33, 0xcc}, {0x0f, 0xf0}};
     const struct shape *shape = context;
-    double low[3], high[3];
-    centres(shape, corner, side, low, high);
-    bool inside = true;
+    struct octree_cover cover = {0xff, 0};
     for (int k = 0; k < 3; k++) {
-        if (high[k] < shape->low[k] || low[k] >= shape->high[k])
-            return OCTREE_OUTSIDE;
-        inside = inside && low[k] >= shape->low[k] && high[k] < shape->high[k];
+        double first[2], last[2];
+        centres(shape, corner, side, k, first, last);
+        for (int upper = 0; upper < 2; upper++) {
+            if (last[upper] < shape->low[k] || first[upper] >= shape->high[k])
+                cover.outside |= numbers[k][upper];
+            if (!(first[upper] >= shape->low[k] && last[upper] < shape->high[k]))
+                cover.inside &= ~numbers[k][upper];
+        }
     }
-    return inside ? OCTREE_INSIDE : OCTREE_CROSSES;
+    return cover;
 }
 
-static enum octree_cover ball_covers(const void *context, const double corner[3], double side, bool cell)
+static struct octree_cover ball_covers(const void *context, const double corner[3], double side, bool cells)
 {
-    (void)cell;
     const struct shape *shape = context;
-    double low[3], high[3];
-    centres(shape, corner, side, low, high);
-    double nearest = 0, farthest = 0;
+    double nearest[3][2], farthest[3][2], sum[8];
     for (int k = 0; k < 3; k++) {
-        double below = low[k] - shape->centre[k], above = high[k] - shape->centre[k];
-        double near = below > 0 ? below : above < 0 ? above : 0;
-        double far = -below > above ? below : above;
-        nearest += shape->weight[k] * (near * near);
-        farthest += shape->weight[k] * (far * far);
+        double first[2], last[2];
+        centres(shape, corner, side, k, first, last);
+        for (int upper = 0; upper < 2; upper++) {
+            double below = first[upper] - shape->centre[k], above = last[upper] - shape->centre[k];
+            double near = greater(greater(below, -above), 0), far = greater(-below, above);
+            nearest[k][upper] = shape->weight[k] * (near * near);
+            farthest[k][upper] = shape->weight[k] * (far * far);
+        }
     }
-    if (nearest > shape->limit)
-        return OCTREE_OUTSIDE;
-    return farthest <= shape->limit ? OCTREE_INSIDE : OCTREE_CROSSES;
+    struct octree_cover cover = {0};
+    add_up(farthest[0], farthest[1], farthest[2], sum);
+    for (int i = 0; i < 8; i++)
+        cover.inside |= (unsigned)(sum[i] <= shape->limit) << i;
+    if (cells)
+        return cover;
+    add_up(nearest[0], nearest[1], nearest[2], sum);
+    for (int i = 0; i < 8; i++)
+        cover.outside |= (unsigned)(sum[i] > shape->limit) << i;
+    return cover;
 }
 
-static enum octree_cover half_space_covers(const void *context, const double corner[3], double side,
-                                           bool cell)
+static struct octree_cover half_space_covers(const void *context, const double corner[3], double side,
+                                             bool cells)
 {
-    (void)cell;
+    (void)cells;
     const struct shape *shape = context;
-    double low[3], high[3];
-    centres(shape, corner, side, low, high);
-    double least = 0, most = 0;
+    double least[3][2], most[3][2], sum[8];
     for (int k = 0; k < 3; k++) {
-        double along_low = shape->direction[k] * (low[k] - shape->centre[k]);
-        double along_high = shape->direction[k] * (high[k] - shape->centre[k]);
-        least += along_low < along_high ? along_low : along_high;
-        most += along_low < along_high ? along_high : along_low;
+        double first[2], last[2];
+        centres(shape, corner, side, k, first, last);
+        for (int upper = 0; upper < 2; upper++) {
+            double along_first = shape->direction[k] * (first[upper] - shape->centre[k]);
+            double along_last = shape->direction[k] * (last[upper] - shape->centre[k]);
+            least[k][upper] = lesser(along_first, along_last);
+            most[k][upper] = greater(along_first, along_last);
+        }
     }
-    if (most < 0)
-        return OCTREE_OUTSIDE;
-    return least >= 0 ? OCTREE_INSIDE : OCTREE_CROSSES;
+    struct octree_cover cover = {0};
+    add_up(least[0], least[1], least[2], sum);
+    for (int i = 0; i < 8; i++)
+        cover.inside |= (unsigned)(sum[i] >= 0) << i;
+    add_up(most[0], most[1], most[2], sum);
+    for (int i = 0; i < 8; i++)
+        cover.outside |= (unsigned)(sum[i] < 0) << i;
+    return cover;
 }
 
-/* The middle of a cube as seen from an axis: how far along it is, and how far off. */
-static void axis_place(const struct shape *shape, const double corner[3], double side, double *along,
-                       double *off)
+/* The middle of cube i as seen from an axis: how far along it is, and how far off. */
+static inline void axis_place(const struct shape *shape, const double corner[3], double side, int i,
+                              double *along, double *off)
 {
     double from[3], beside[3];
     for (int k = 0; k < 3; k++)
-        from[k] = corner[k] + side / 2 - shape->centre[k];
+        from[k] = corner[k] + ((i >> k & 1) + 0.5) * side - shape->centre[k];
     *along = vec3_dot(from, shape->direction);
     for (int k = 0; k < 3; k++)
         beside[k] = from[k] - *along * shape->direction[k];
     *off = vec3_length(beside);
 }
 
-/* Half the diagonal of the box that the cells' centres span. */
-static double reach(const struct shape *shape, double side)
+/* Half the diagonal of the box that the centres of the cells in a cube span, and what rounding adds. */
+static inline double reach(const struct shape *shape, double side)
 {
-    return sqrt(3) * (side / 2 - shape->half_cell);
+    return sqrt(3) * (side / 2 - shape->half_cell) + shape->slack;
 }
 
 /* A cone with flat ends; a cylinder is one that does not taper. */
-static enum octree_cover cone_covers(const void *context, const double corner[3], double side, bool cell)
+static struct octree_cover cone_covers(const void *context, const double corner[3], double side, bool cells)
 {
     const struct shape *shape = context;
-    double along, off;
-    axis_place(shape, corner, side, &along, &off);
-    double over = off - (shape->radius + shape->slope * along);
-    if (cell)
-        return along >= 0 && along <= shape->length && over <= 0 ? OCTREE_INSIDE : OCTREE_OUTSIDE;
-    double spread = reach(shape, side) + shape->slack;
-    double widest = shape->steepness * spread;
-    if (along + spread < 0 || along - spread > shape->length || over > widest)
-        return OCTREE_OUTSIDE;
-    return along - spread >= 0 && along + spread <= shape->length && over < -widest ? OCTREE_INSIDE
-                                                                                    : OCTREE_CROSSES;
+    const double spread = cells ? 0 : reach(shape, side), widest = shape->steepness * spread;
+    struct octree_cover cover = {0};
+    for (int i = 0; i < 8; i++) {
+        double along, off;
+        axis_place(shape, corner, side, i, &along, &off);
+        double over = off - (shape->radius + shape->slope * along);
+        bool inside = along - spread >= 0 && along + spread <= shape->length && over <= -widest;
+        bool outside = along + spread < 0 || along - spread > shape->length || over > widest;
+        cover.inside |= (unsigned)inside << i;
+        cover.outside |= (unsigned)outside << i;
+    }
+    return cover;
 }
 
 /* Distance to the swept sphere's skin, negative inside: the least over the axis of (distance to the place u of
  * the axis) - (radius there). For r(u) = r + s u its derivative is zero where (along - u)/distance = -s, so
  * u = along + off s / sqrt(1 - s^2); the function is convex, so a u beyond an end means that end. Where one
  * end's sphere holds the other's (|s| >= 1) the least is at an end too. */
-static double capsule_distance(const struct shape *shape, double along, double off)
+static inline double capsule_distance(const struct shape *shape, double along, double off)
 {
-    double s = shape->slope, u = s > 0 ? shape->length : 0;
-    if (fabs(s) < 1)
-        u = fmin(fmax(along + off * s / sqrt(1 - s * s), 0), shape->length);
-    return hypot(off, along - u) - (shape->radius + s * u);
+    double u = lesser(greater(along + off * shape->lean + shape->push, 0), shape->length);
+    double ahead = along - u;
+    return sqrt(off * off + ahead * ahead) - (shape->radius + shape->slope * u);
 }
 
-static enum octree_cover capsule_covers(const void *context, const double corner[3], double side, bool cell)
+static struct octree_cover capsule_covers(const void *context, const double corner[3], double side,
+                                          bool cells)
 {
     const struct shape *shape = context;
-    double along, off;
-    axis_place(shape, corner, side, &along, &off);
-    double distance = capsule_distance(shape, along, off);
-    if (cell)
-        return distance <= 0 ? OCTREE_INSIDE : OCTREE_OUTSIDE;
-    double spread = reach(shape, side) + shape->slack;
-    if (distance > spread)
-        return OCTREE_OUTSIDE;
-    return distance < -spread ? OCTREE_INSIDE : OCTREE_CROSSES;
+    const double spread = cells ? 0 : reach(shape, side);
+    struct octree_cover cover = {0};
+    for (int i = 0; i < 8; i++) {
+        double along, off;
+        axis_place(shape, corner, side, i, &along, &off);
+        double distance = capsule_distance(shape, along, off);
+        cover.inside |= (unsigned)(distance <= -spread) << i;
+        cover.outside |= (unsigned)(distance > spread) << i;
+    }
+    return cover;
 }
 
 static void init_box(struct shape *shape, const double *value)
@@ -186,6 +227,11 @@ static void init_axis(struct shape *shape, const double *value, double first_rad
     }
     shape->radius = shape->length > 0 ? first_radius : fmax(first_radius, last_radius);
     shape->slope = shape->length > 0 ? (last_radius - first_radius) / shape->length : 0;
+    double s = shape->slope;
+    if (fabs(s) < 1)
+        shape->lean = s / sqrt(1 - s * s);
+    else
+        shape->push = s > 0 ? HUGE_VAL : -HUGE_VAL;
     shape->steepness = sqrt(1 + shape->slope * shape->slope);
     shape->slack = 1e-14 * (1 + largest); /* some 50 roundings of numbers of that size */
 }

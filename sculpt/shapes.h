@@ -14,6 +14,7 @@ struct shape {
     double direction[3];     /* the normal of a half-space; the axis, of length 1 */
     double length;           /* of the axis */
     double radius, slope;    /* at the first end, and its growth along the axis */
+    double lean, push;       /* of a capsule: see capsule_distance() */
     double steepness;        /* how fast the distance to a round shape, as it is calculated, can change */
     double slack;            /* what rounding may change about a distance */
 };
