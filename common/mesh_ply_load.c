@@ -207,10 +207,10 @@ static enum status read_elements(struct ply_body *body, struct error *err)
         if (is_text)
             to_line_of_element(&body->text);
         status = read_element(body, value, err);
-        if (!status && is_text)
-            status = end_line_of_element(body, err);
         if (!status && body->element->kind == PLY_VERTEX)
             status = keep_vertex(body, value, err);
+        if (!status && is_text)
+            status = end_line_of_element(body, err);
     }
     return status;
 }
