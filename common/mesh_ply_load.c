@@ -71,8 +71,7 @@ static enum status next_text_value(struct ply_body *body, double *value, struct 
         return body_fail(body, err, "the file ends here; the header promises %llu of them",
                          (unsigned long long)body->element->count);
     if (!text_word(&body->text, &word))
-        return body_fail(body, err, "its line ends too early; the header lists %zu properties",
-                         body->element->property_count);
+        return body_fail(body, err, "a number is missing at the end of its line");
     if (!word_number(word, value))
         return body_fail(body, err, "'%s' is no number", word_show(word, shown));
     return STATUS_OK;
@@ -179,10 +178,10 @@ static enum status keep_vertex(struct ply_body *body, const double value[PLY_OTH
 static void to_line_of_element(struct text *text)
 {
     struct word word;
-    struct text start = *text;
-    if (text_any_word(&start, &word)) {
-        while (text->line < start.line)
-            text_next_line(text);
+    struct text ahead = *text;
+    while (!text_ended(text) && !text_word(&ahead, &word)) {
+        text_next_line(text);
+        ahead = *text;
     }
 }
 
@@ -191,8 +190,8 @@ static enum status end_line_of_element(struct ply_body *body, struct error *err)
     struct word word;
     char shown[WORD_SHOWN_SIZE];
     if (text_word(&body->text, &word))
-        return body_fail(body, err, "'%s' is more than the header's %zu properties", word_show(word, shown),
-                         body->element->property_count);
+        return body_fail(body, err, "'%s' is more than the header's properties ask for",
+                         word_show(word, shown));
     text_next_line(&body->text);
     return STATUS_OK;
 }

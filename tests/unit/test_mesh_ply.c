@@ -267,7 +267,8 @@ static void a_header_that_is_wrong_is_named_by_its_line(void **state)
 static void a_text_body_that_is_wrong_is_named_by_line_and_element(void **state)
 {
     (void)state;
-    assert_text_refused(HEAD "0 0 0\n1 0\n1 1 0\n0 1 0\n4 0 1 2 3\n", "a.ply:11: vertex 1: its line ends");
+    assert_text_refused(HEAD "0 0 0\n1 0\n1 1 0\n0 1 0\n4 0 1 2 3\n",
+                        "a.ply:11: vertex 1: a number is missing");
     assert_text_refused(HEAD "0 0 0\n1 0 0 5\n1 1 0\n0 1 0\n4 0 1 2 3\n", "a.ply:11: vertex 1: '5' is more");
     assert_text_refused(HEAD "0 0 0\n1 0 O\n1 1 0\n0 1 0\n4 0 1 2 3\n",
                         "a.ply:11: vertex 1: 'O' is no number");
