@@ -10,12 +10,21 @@ static const char ascii_ply[] = "ply\nformat ascii 1.0\ncomment x\nelement verte
                                 "property float y\nproperty float z\nproperty list uchar int w\n"
                                 "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
                                 "0 0 0 0\n1 0 0 2 3 4\n0 1 0 1 5\n3 0 1 2\n";
+/* Lists come before numbers, so that a cut falls into a number that the header's counts do not foresee. */
+static const char binary_ply[] = "ply\nformat binary_big_endian 1.0\nelement vertex 3\n"
+                                 "property list uchar short w\nproperty double x\nproperty ushort y\n"
+                                 "property int z\nelement face 1\nproperty list uchar uchar vertex_index\n"
+                                 "property list uchar uchar v\nproperty float f\nend_header\n";
+static const unsigned char binary_ply_body[3 * (1 + 2 * 3 + 8 + 2 + 4) + (1 + 3) + (1 + 1) + 4] = {
+    [0] = 3, [21] = 3, [42] = 3, [63] = 3, [65] = 1, [66] = 2, [67] = 1,
+};
 static const char ascii_stl[] = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
                                 "vertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
 static const char obj[] = "v 0 0 0\nv 1 \\\n0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2/1/1 -1\nf 3 2 1 3\n";
 
-/* Reads the first `size` bytes from a block of its own, with the NUL that file_read() puts behind them. */
-static void read_some(reader *read, const void *data, size_t size)
+/* Reads the first `size` bytes from a block of its own, with the NUL that file_read() puts behind them. True when
+ * they are a mesh. */
+static bool read_some(reader *read, const void *data, size_t size)
 {
     struct error err = {0};
     struct mesh mesh = {0};
@@ -32,10 +41,12 @@ static void read_some(reader *read, const void *data, size_t size)
     }
     mesh_clear(&mesh);
     bytes_clear(&bytes);
+    return !status;
 }
 
 static void damage(reader *read, const void *whole, size_t size, size_t head)
 {
+    assert_true(read_some(read, whole, size)); /* as it is nothing is wrong with it */
     unsigned char *bytes = malloc(size);
     memcpy(bytes, whole, size);
     for (size_t cut = 0; cut <= size; cut++)
@@ -70,6 +81,11 @@ static void damaged_ply_is_read_or_refused(void **state)
     (void)state;
     damage(mesh_read_ply, ascii_ply, strlen(ascii_ply), strlen(ascii_ply));
     damage_saved(mesh_read_ply, "a.ply", 400);
+    enum { HEAD = sizeof binary_ply - 1 };
+    char binary[HEAD + sizeof binary_ply_body];
+    memcpy(binary, binary_ply, HEAD);
+    memcpy(binary + HEAD, binary_ply_body, sizeof binary_ply_body);
+    damage(mesh_read_ply, binary, sizeof binary, sizeof binary);
 }
 
 static void damaged_stl_is_read_or_refused(void **state)
