@@ -29,22 +29,6 @@ static void make_face(struct cell_table *table, int face)
     }
 }
 
-void cell_table_make(struct cell_table *table)
-{
-    memset(table, 0, sizeof *table);
-    for (int face = 0; face < CELL_FACES; face++)
-        make_face(table, face);
-    for (int mask = 0; mask < 256; mask++)
-        for (int face = 0; face < CELL_FACES; face++) {
-            const uint8_t *c = table->corner[face];
-            int a = mask >> c[0] & 1, b = mask >> c[1] & 1, d = mask >> c[2] & 1, e = mask >> c[3] & 1;
-            if (a != b || b != d || d != e)
-                table->crossed[mask] |= (uint8_t)(1 << face);
-            if (a == d && b == e && a != b)
-                table->ambiguous[mask] |= (uint8_t)(1 << face);
-        }
-}
-
 /* The arcs of one face: next[edge where the walk enters] = edge where it leaves. */
 static void link_face(const struct cell_table *table, int face, unsigned inside, bool joined,
                       uint8_t next[CELL_EDGES])
@@ -85,6 +69,28 @@ void cell_find_loops(const struct cell_table *table, unsigned inside, unsigned j
             edge = following;
         }
         loops->length[loop] = length;
+    }
+}
+
+void cell_table_make(struct cell_table *table)
+{
+    memset(table, 0, sizeof *table);
+    for (int face = 0; face < CELL_FACES; face++)
+        make_face(table, face);
+    for (int mask = 0; mask < 256; mask++)
+        for (int face = 0; face < CELL_FACES; face++) {
+            const uint8_t *c = table->corner[face];
+            int a = mask >> c[0] & 1, b = mask >> c[1] & 1, d = mask >> c[2] & 1, e = mask >> c[3] & 1;
+            if (a != b || b != d || d != e)
+                table->crossed[mask] |= (uint8_t)(1 << face);
+            if (a == d && b == e && a != b)
+                table->ambiguous[mask] |= (uint8_t)(1 << face);
+        }
+    for (unsigned mask = 0; mask < 256; mask++) {
+        struct cell_loops loops;
+        cell_find_loops(table, mask, 0, &loops);
+        for (int i = 0; i < loops.count; i++)
+            table->triangles[mask] += (uint8_t)(loops.length[i] - 2);
     }
 }
 

@@ -59,8 +59,6 @@ static double largest_sum(const struct field *field, const struct field_lattice 
 static double largest_slope_sum(const struct field *field, const struct field_lattice *lattice)
 {
     double shift = 1 - exp(-field->cutoff * field->cutoff / 2);
-    if (lattice->spacing == 0)
-        return 2 / (field->sigma * SQRT_2PI * erf(field->cutoff / M_SQRT2));
     return lattice->weight * (4 * exp(-0.5) / field->sigma + 2 / lattice->spacing) / shift;
 }
 
@@ -75,13 +73,14 @@ static double largest_steepness(const struct field *field)
         sum[k] = largest_sum(field, &field->lattice[k]);
         slope[k] = largest_slope_sum(field, &field->lattice[k]);
     }
-    /* The exact field's derivative along any direction is the convolution with an odd kernel, whose positive half
-     * has the mass 1/(s sqrt(2 pi)): half of `slope`. Cut off by a box, the kernel's worst direction is a diagonal,
-     * which the normalisation's third power covers. */
+    /* The exact field's derivative along a direction is its convolution with the Gaussian's, so it is at most
+     * (high - low) times the mass of the positive half of that: 1/(s sqrt(2 pi)). Cutting off by a box adds the steps
+     * at its faces, exp(-R^2/2) of the same for each axis, and divides by the mass within. */
     double steepness = 0;
     const struct field_lattice *volume = &field->lattice[TRACK_VOLUME];
     if (volume->used && volume->spacing == 0)
-        steepness += (high - low) * slope[TRACK_VOLUME] / 2 / pow(erf(field->cutoff / M_SQRT2), 2);
+        steepness += (high - low) * (1 + sqrt(3) * exp(-field->cutoff * field->cutoff / 2)) /
+                     (field->sigma * SQRT_2PI * pow(erf(field->cutoff / M_SQRT2), 3));
     else if (volume->used)
         steepness += fmax(-low, high) * sqrt(3) * slope[TRACK_VOLUME] * pow(sum[TRACK_VOLUME], 2);
     if (field->lattice[TRACK_AREA].used)

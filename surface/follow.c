@@ -48,6 +48,7 @@ void follow(struct mesher *m, uint32_t brick, int cell)
         struct cell_at here = m->stack.items[--m->stack.count];
         unsigned inside = cell_inside(&m->bricks.items[here.brick], here.cell % BRICK,
                                       here.cell / BRICK % BRICK, here.cell / 64);
+        m->triangles += m->cells.triangles[inside];
         for (int face = 0; face < CELL_FACES; face++)
             if (m->cells.crossed[inside] >> face & 1)
                 cross_face(m, here.brick, here.cell, face);

@@ -226,7 +226,7 @@ static enum status draw(const struct mesh *mesh, const char *path, struct error 
 }
 
 static enum status report(struct mesh *mesh, const struct arguments *arguments,
-                          const struct surface_stats *stats, struct error *err)
+                          const struct surface_stats *stats, double finest_cell, struct error *err)
 {
     struct surface_shape shape;
     if (arguments->output && mesh_save(mesh, arguments->output, err))
@@ -238,6 +238,11 @@ static enum status report(struct mesh *mesh, const struct arguments *arguments,
             return err->status;
         print_info(mesh, stats, &shape, arguments->options.seeds);
     }
+    if (stats->cube_size > finest_cell)
+        command_note(
+            "cubes of %.4g are larger than the finest cell, %.4g: what is thinner may be lost; take more "
+            "triangles, or a sigma of 1 or more to smooth it",
+            stats->cube_size, finest_cell);
     double wanted = arguments->options.triangles;
     if (wanted > 0 && fabs(mesh->triangle_count / wanted - 1) > 0.05)
         command_note("%u triangles: at no cube size tried were there %.0f; their number goes in steps",
@@ -271,7 +276,7 @@ static enum status make(struct arguments *arguments, const struct octree *tree, 
     progress_end();
     if (status != STATUS_OK)
         return error_prefix(err, arguments->input);
-    status = report(&mesh, arguments, &stats, err);
+    status = report(&mesh, arguments, &stats, ldexp(1, -(int)tree->depth), err);
     mesh_clear(&mesh);
     return status;
 }

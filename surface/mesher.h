@@ -73,7 +73,7 @@ struct mesher {
     double values[BRICK_CORNERS * BRICK_CORNERS * BRICK_CORNERS];
     struct moved_corner moved[BRICK_CORNERS * BRICK_CORNERS * BRICK_CORNERS];
     uint64_t samples;
-    size_t follows;
+    size_t follows, triangles; /* triangles: about; ambiguous faces count as not joined */
     double worst_residual;
     size_t vertices_expected; /* for progress */
     void (*progress)(void *context, double done);

@@ -1,12 +1,14 @@
 /* Where the following begins: by descent, and by the paper's random points. */
 #include "common/random.h"
+#include "common/vec3.h"
 #include "surface/mesher.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 /*
- * Proof that a brick can be left out. Let all cells within `reach` of a box be of one material k (or all empty,
+ * Proofs that a brick can be left out. Where it is small against sigma, the field's steepness serves (see
+ * far_from_threshold). Otherwise, let all cells within `reach` of a box be of one material k (or all empty,
  * b_k = 0). Of a point of the box, let M be the sum of the one-dimensional Gaussians of the whole lattice, between
  * `least` and `most`, and at most `tail` what of it lies further than `reach` to either side. Then the near cells
  * contribute between b_k (least - tail)^3 and b_k most^3, and all others at most B 3 tail most^2, B = max |b|; of
@@ -131,17 +133,39 @@ static int only_material(const struct octree *tree, const int low[3], const int 
     return survey.material;
 }
 
-static bool left_out(const struct mesher *m, const struct bounds *bounds, const int low[3], const int high[3])
+static bool in_one_material(const struct mesher *m, const struct bounds *bounds, const double low[3],
+                            const double high[3])
 {
     int cell_low[3], cell_high[3];
     for (int axis = 0; axis < 3; axis++) {
-        double start = grid_coordinate(&m->grid, low[axis] * BRICK) - bounds->reach;
-        double end = grid_coordinate(&m->grid, (high[axis] + 1) * BRICK) + bounds->reach;
-        cell_low[axis] = (int)floor(fmax(start, -1));
-        cell_high[axis] = (int)floor(fmin(end, m->field->side));
+        cell_low[axis] = (int)floor(fmax(low[axis] - bounds->reach, -1));
+        cell_high[axis] = (int)floor(fmin(high[axis] + bounds->reach, m->field->side));
     }
     int material = only_material(m->field->tree, cell_low, cell_high);
     return material >= 0 && bounds->excluded[material];
+}
+
+/* The field differs from that in the middle of a box by at most its steepness times the half diagonal. */
+static bool far_from_threshold(struct mesher *m, const double low[3], const double high[3])
+{
+    double middle[3], half[3], gradient[3];
+    for (int axis = 0; axis < 3; axis++) {
+        half[axis] = (high[axis] - low[axis]) / 2;
+        middle[axis] = low[axis] + half[axis];
+    }
+    double most = 1.000001 * m->field->steepness * vec3_length(half);
+    return most < m->threshold && fabs(probe_value(&m->probe, middle, gradient) - m->threshold) > most;
+}
+
+/* Whether all corners of the bricks low .. high are proven to be on one side. */
+static bool left_out(struct mesher *m, const struct bounds *bounds, const int low[3], const int high[3])
+{
+    double start[3], end[3];
+    for (int axis = 0; axis < 3; axis++) {
+        start[axis] = grid_coordinate(&m->grid, low[axis] * BRICK);
+        end[axis] = grid_coordinate(&m->grid, (high[axis] + 1) * BRICK);
+    }
+    return in_one_material(m, bounds, start, end) || far_from_threshold(m, start, end);
 }
 
 /* Looks at the bricks low .. high, by halves along the longest axis. */

@@ -61,7 +61,7 @@ static enum status find(const struct making *making, double cube, bool count_onl
     m->progress = count_only ? NULL : options->progress;
     m->progress_context = options->progress_context;
     making->stats->seeds_random = 0;
-    if (options->seeds == SURFACE_RANDOM) {
+    if (options->seeds == SURFACE_RANDOM && !count_only) {
         seeds_random(m, options->seed);
         making->stats->seeds_random = m->follows;
     }
@@ -74,14 +74,14 @@ static enum status find(const struct making *making, double cube, bool count_onl
     return error_no_memory(err, "the surface");
 }
 
-static enum status count_points(const struct making *making, double cube, size_t *count, struct error *err)
+static enum status count_triangles(const struct making *making, double cube, size_t *count, struct error *err)
 {
     struct mesher *m = malloc(sizeof *m);
     if (!m)
         return error_no_memory(err, "the surface");
     enum status status = find(making, cube, true, m, err);
     if (status == STATUS_OK) {
-        *count = m->vertices.count;
+        *count = m->triangles;
         mesher_clear(m);
     }
     free(m);
@@ -102,12 +102,12 @@ static double default_cube(const struct making *making)
  * corrects by that law, halving instead where that would leave the sizes known to give too many and too few. */
 static enum status choose_cube(const struct making *making, double *cube, struct error *err)
 {
-    double wanted = making->options->triangles / 2.0, low = 0, high = INFINITY, best = INFINITY;
-    double size = sqrt(expected_points(making, 1) / wanted);
+    double wanted = making->options->triangles, low = 0, high = INFINITY, best = INFINITY;
+    double size = sqrt(2 * expected_points(making, 1) / wanted);
     *cube = size;
     for (int turn = 0; turn < 24 && best > 0.01; turn++) {
         size_t count = 0;
-        if (count_points(making, size, &count, err))
+        if (count_triangles(making, size, &count, err))
             return err->status;
         double off = fabs((double)count / wanted - 1);
         if (off < best) {
@@ -140,7 +140,7 @@ static enum status explain_nothing(const struct making *making, double cube, str
     size_t count = 0;
     for (int turn = 0; turn < 40 && count == 0; turn++) {
         works /= 1.25;
-        if (count_points(making, works, &count, err))
+        if (count_triangles(making, works, &count, err))
             return err->status;
     }
     return error_set(
