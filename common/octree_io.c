@@ -55,7 +55,8 @@ static void write_chunk(FILE *stream, const char *name, const unsigned char *con
     put_number(head + NAME_SIZE, size, 4);
     put_number(tail, crc32_bytes(crc32_bytes(0, head, sizeof head), contents, size), 4);
     fwrite(head, 1, sizeof head, stream);
-    fwrite(contents, 1, size, stream);
+    if (size > 0)
+        fwrite(contents, 1, size, stream);
     fwrite(tail, 1, sizeof tail, stream);
 }
 
