@@ -7,6 +7,7 @@
 
 #include <pthread.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -38,7 +39,8 @@ struct frames {
 
     pthread_t workers[WORKERS_MAX], movie_thread;
     int worker_count;
-    bool movie_running, movie_failed;
+    bool movie_running;
+    atomic_bool png_failed, movie_failed; /* what is still queued is not written to it */
 };
 
 static void note_failure(struct frames *frames, const struct error *err)
@@ -58,8 +60,8 @@ static struct error failure_so_far(struct frames *frames)
 }
 
 /* Waits for picture *next, counts it as taken, and returns its slot; NULL when there are no more. *number
- * becomes its number, *skip whether something has gone wrong already. */
-static struct slot *take(struct frames *frames, size_t *next, size_t *number, bool *skip)
+ * becomes its number. */
+static struct slot *take(struct frames *frames, size_t *next, size_t *number)
 {
     struct slot *slot = NULL;
     pthread_mutex_lock(&frames->lock);
@@ -68,7 +70,6 @@ static struct slot *take(struct frames *frames, size_t *next, size_t *number, bo
     if (*next < frames->added) {
         *number = (*next)++;
         slot = &frames->slots[*number % frames->capacity];
-        *skip = frames->first.status != STATUS_OK;
     }
     pthread_mutex_unlock(&frames->lock);
     return slot;
@@ -106,11 +107,12 @@ static void *run_worker(void *context)
 {
     struct frames *frames = context;
     size_t number;
-    bool skip;
-    for (struct slot *slot; (slot = take(frames, &frames->next_png, &number, &skip)); release(frames, slot)) {
+    for (struct slot *slot; (slot = take(frames, &frames->next_png, &number)); release(frames, slot)) {
         struct error err = {0};
-        if (!skip && write_frame(frames, slot, number, &err))
+        if (!frames->png_failed && write_frame(frames, slot, number, &err)) {
+            frames->png_failed = true;
             note_failure(frames, &err);
+        }
     }
     return NULL;
 }
@@ -119,11 +121,9 @@ static void *run_movie(void *context)
 {
     struct frames *frames = context;
     size_t number;
-    bool skip;
-    for (struct slot *slot; (slot = take(frames, &frames->next_shot, &number, &skip));
-         release(frames, slot)) {
+    for (struct slot *slot; (slot = take(frames, &frames->next_shot, &number)); release(frames, slot)) {
         struct error err = {0};
-        if (!skip && movie_add(frames->movie, &slot->image, &err)) {
+        if (!frames->movie_failed && movie_add(frames->movie, &slot->image, &err)) {
             frames->movie_failed = true;
             note_failure(frames, &err);
         }

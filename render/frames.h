@@ -34,8 +34,8 @@ struct frames;
 enum status frames_open(const struct frames_options *options, struct frames **frames, struct error *err);
 
 /* Adds a copy of the next picture, shown at `time` (seconds, for the sheet's labels and the PNGs' text). All
- * pictures have the first one's size (else STATUS_RANGE). Errors are those of writing; after one, nothing
- * more is written. */
+ * pictures have the first one's size (else STATUS_RANGE). Errors are those of writing; after one no more are
+ * taken, and what is queued still goes wherever nothing failed. */
 enum status frames_add(struct frames *frames, const struct image *image, double time, struct error *err);
 
 /* Waits for what is queued, ends the movie, writes the sheet and frees `frames`. Returns the first error of

@@ -1,0 +1,471 @@
+/* What becomes of a run's pictures: PNGs, a movie, a contact sheet, and what is said when they cannot be. */
+#include "check.h"
+#include "common/file.h"
+#include "render/frames.h"
+#include "render/movie.h"
+#include "render/sheet.h"
+
+#include <ftw.h>
+#include <glob.h>
+#include <png.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static char folder[] = "/tmp/balloon-frames-XXXXXX";
+static char *usual_path;
+
+static int enter_folder(void **state)
+{
+    (void)state;
+    usual_path = strdup(getenv("PATH"));
+    return !mkdtemp(folder) || chdir(folder);
+}
+
+static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *walk)
+{
+    (void)info, (void)kind;
+    return walk->level ? remove(path) : 0;
+}
+
+/* Each test begins in an empty folder, with the user's programs. */
+static int empty_folder(void **state)
+{
+    (void)state;
+    setenv("PATH", usual_path, 1);
+    return nftw(".", remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+}
+
+static int leave_folder(void **state)
+{
+    empty_folder(state);
+    free(usual_path);
+    return rmdir(folder);
+}
+
+static size_t names_like(const char *pattern)
+{
+    glob_t found;
+    size_t count = glob(pattern, 0, NULL, &found) ? 0 : found.gl_pathc;
+    globfree(&found);
+    return count;
+}
+
+static void write_text(const char *path, const char *text, mode_t mode)
+{
+    FILE *stream = fopen(path, "w");
+    assert_non_null(stream);
+    fputs(text, stream);
+    fclose(stream);
+    chmod(path, mode);
+}
+
+static void assert_contents(const char *path, const char *text)
+{
+    struct error err;
+    struct bytes bytes = {0};
+    assert_ok(file_read(path, &bytes, &err), &err);
+    assert_string_equal((const char *)bytes.data, text);
+    bytes_clear(&bytes);
+}
+
+/* Stands in for ffmpeg: a shell script at the front of PATH. "$output" is the name that it should write. */
+static void pretend_ffmpeg(const char *script)
+{
+    char *text, *path;
+    mkdir("bin", 0777);
+    assert_true(asprintf(&text, "#!/bin/sh\nfor output; do :; done\noutput=${output#file:}\n%s\n", script) >
+                0);
+    write_text("bin/ffmpeg", text, 0755);
+    assert_true(asprintf(&path, "%s/bin:%s", folder, usual_path) > 0);
+    setenv("PATH", path, 1);
+    free(text);
+    free(path);
+}
+
+/* Picture n: n red, x green, y blue. */
+static void paint(struct image *image, int n)
+{
+    for (int y = 0; y < image->height; y++)
+        for (int x = 0; x < image->width; x++) {
+            unsigned char *rgb = image->rgb + 3 * (y * image->width + x);
+            rgb[0] = (unsigned char)n;
+            rgb[1] = (unsigned char)x;
+            rgb[2] = (unsigned char)y;
+        }
+}
+
+static struct image a_picture(int width, int height)
+{
+    struct error err;
+    struct image image = {0};
+    assert_ok(image_init(&image, width, height, &err), &err);
+    return image;
+}
+
+static void assert_png_shows(const char *path, const struct image *image)
+{
+    png_image png = {.version = PNG_IMAGE_VERSION};
+    assert_true(png_image_begin_read_from_file(&png, path));
+    png.format = PNG_FORMAT_RGB;
+    assert_int_equal(png.width, image->width);
+    assert_int_equal(png.height, image->height);
+    unsigned char *rgb = malloc(PNG_IMAGE_SIZE(png));
+    assert_true(png_image_finish_read(&png, NULL, rgb, 0, NULL));
+    assert_memory_equal(rgb, image->rgb, PNG_IMAGE_SIZE(png));
+    free(rgb);
+}
+
+static void assert_file_has(const char *path, const char *bytes, size_t size)
+{
+    struct error err;
+    struct bytes file = {0};
+    assert_ok(file_read(path, &file, &err), &err);
+    assert_non_null(memmem(file.data, file.size, bytes, size));
+    bytes_clear(&file);
+}
+
+static void run(const struct frames_options *options, int width, int height, int count)
+{
+    struct error err = {0};
+    struct frames *frames;
+    struct image image = a_picture(width, height);
+    assert_ok(frames_open(options, &frames, &err), &err);
+    for (int n = 0; n < count; n++) {
+        paint(&image, n);
+        assert_ok(frames_add(frames, &image, n / 8.0, &err), &err);
+    }
+    assert_ok(frames_close(frames, &err), &err);
+    image_clear(&image);
+}
+
+static void a_png_holds_the_picture_and_its_texts(void **state)
+{
+    (void)state;
+    struct error err;
+    struct image image = a_picture(70, 50);
+    const struct image_text texts[] = {{"Title", "fox"}, {"Comment", "caf\xc3\xa9"}};
+    paint(&image, 9);
+    assert_ok(image_save_png(&image, "a.png", texts, 2, &err), &err);
+    assert_png_shows("a.png", &image);
+    assert_file_has("a.png", "tEXtTitle\0fox", 13);
+    assert_file_has("a.png", "iTXtComment\0", 12);
+    assert_file_has("a.png", "caf\xc3\xa9", 5);
+    image_clear(&image);
+}
+
+static void a_png_that_cannot_be_written_says_why(void **state)
+{
+    (void)state;
+    struct error err;
+    struct image image = a_picture(300, 300);
+    assert_refused(image_save_png(&image, "/dev/full", NULL, 0, &err), STATUS_FILE,
+                   "/dev/full: cannot write: No space left", &err);
+    assert_refused(image_save_png(&image, "no/a.png", NULL, 0, &err), STATUS_FILE, "no/a.png: cannot create",
+                   &err);
+    const struct image_text empty = {"", "a key must not be empty"};
+    assert_refused(image_save_png(&image, "b.png", &empty, 1, &err), STATUS_FILE, "b.png: ", &err);
+    assert_int_equal(names_like("*"), 0);
+    image_clear(&image);
+}
+
+static void frames_are_numbered_in_order_and_carry_their_time(void **state)
+{
+    (void)state;
+    for (int workers = 1; workers < 4; workers += 2) {
+        run(&(struct frames_options){.folder = "f", .workers = workers}, 40, 30, 60);
+        struct image wanted = a_picture(40, 30);
+        for (int n = 0; n < 60; n++) {
+            char path[64];
+            snprintf(path, sizeof path, "f/frame_%04d.png", n);
+            paint(&wanted, n);
+            assert_png_shows(path, &wanted);
+        }
+        assert_file_has("f/frame_0003.png", "tEXtTime\0000.375", 14);
+        assert_int_equal(names_like("f/*"), 60);
+        image_clear(&wanted);
+    }
+}
+
+static void a_folder_that_cannot_be_is_refused_at_once(void **state)
+{
+    (void)state;
+    struct error err;
+    struct frames *frames;
+    write_text("f", "a file", 0644);
+    struct frames_options options = {.folder = "f"};
+    assert_refused(frames_open(&options, &frames, &err), STATUS_FILE, "f: is a file", &err);
+    assert_contents("f", "a file");
+    options.folder = "no/such";
+    assert_refused(frames_open(&options, &frames, &err), STATUS_FILE, "no/such: cannot make the folder",
+                   &err);
+    options = (struct frames_options){.sheet = "no/sheet.png"};
+    assert_refused(frames_open(&options, &frames, &err), STATUS_FILE, "no/sheet.png: cannot create", &err);
+    assert_int_equal(names_like("*"), 1);
+}
+
+static void a_failure_while_writing_comes_back_and_ends_the_writing(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct frames *frames;
+    struct image image = a_picture(20, 20);
+    assert_ok(frames_open(&(struct frames_options){.folder = "f"}, &frames, &err), &err);
+    rmdir("f");
+    enum status status = STATUS_OK;
+    for (int n = 0; n < 1000 && !status; n++)
+        status = frames_add(frames, &image, n, &err);
+    assert_int_equal(status, STATUS_FILE);
+    mkdir("f", 0777);
+    assert_refused(frames_add(frames, &image, 1001, &err), STATUS_FILE, "f/frame_0", &err);
+    assert_refused(frames_close(frames, &err), STATUS_FILE, "cannot create: No such file", &err);
+    assert_int_equal(names_like("f/*"), 0);
+    image_clear(&image);
+}
+
+static void frames_of_another_size_are_refused(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct frames *frames;
+    struct image one = a_picture(20, 20), other = a_picture(20, 21);
+    assert_ok(frames_open(&(struct frames_options){.folder = "f"}, &frames, &err), &err);
+    assert_ok(frames_add(frames, &one, 0, &err), &err);
+    assert_refused(frames_add(frames, &other, 1, &err), STATUS_RANGE, "20 x 21 follows one of 20 x 20", &err);
+    assert_refused(frames_close(frames, &err), STATUS_RANGE, "20 x 21", &err);
+    assert_png_shows("f/frame_0000.png", &one);
+    image_clear(&one);
+    image_clear(&other);
+}
+
+static void nothing_asked_for_and_nothing_added_is_fine(void **state)
+{
+    (void)state;
+    run(&(struct frames_options){0}, 8, 8, 40);
+    run(&(struct frames_options){.folder = "f", .sheet = "s.png"}, 8, 8, 0);
+    assert_int_equal(names_like("*"), 1);
+}
+
+static void ffmpeg_gets_every_picture_in_order(void **state)
+{
+    (void)state;
+    pretend_ffmpeg("cat >\"$output\"; echo \"$@\" >arguments");
+    run(&(struct frames_options){.movie = "a movie.mp4", .folder = "f", .rate = 12.5}, 6, 4, 50);
+    struct error err;
+    struct bytes movie = {0};
+    struct image wanted = a_picture(6, 4);
+    assert_ok(file_read("a movie.mp4", &movie, &err), &err);
+    assert_int_equal(movie.size, 50 * 72);
+    for (int n = 0; n < 50; n++) {
+        paint(&wanted, n);
+        assert_memory_equal(movie.data + 72 * n, wanted.rgb, 72);
+    }
+    assert_file_has("arguments", "-s 6x4 -framerate 12.500000 ", 28);
+    assert_int_equal(names_like("f/*"), 50);
+    assert_int_equal(names_like("*.mp4"), 1);
+    bytes_clear(&movie);
+    image_clear(&wanted);
+}
+
+/* Enough pictures to fill a pipe (64 KiB) many times over: the writer meets its closed end. */
+static void a_movie_that_fails_leaves_the_old_one_and_no_other(void **state)
+{
+    (void)state;
+    const char *const scripts[] = {"echo first >&2; echo 'no such codec' >&2; exit 1",
+                                   "head -c 5000 >\"$output\"; echo 'no such codec' >&2; exit 1",
+                                   "cat >\"$output\"; echo 'no such codec' >&2; exit 1"};
+    for (int i = 0; i < 3; i++) {
+        struct error err = {0};
+        struct frames *frames;
+        struct image image = a_picture(100, 100);
+        pretend_ffmpeg(scripts[i]);
+        write_text("m.webm", "old", 0644);
+        assert_ok(frames_open(&(struct frames_options){.movie = "m.webm"}, &frames, &err), &err);
+        for (int n = 0; n < 50; n++)
+            frames_add(frames, &image, n, &err);
+        assert_refused(frames_close(frames, &err), STATUS_FILE, "m.webm: ffmpeg failed: no such codec", &err);
+        assert_contents("m.webm", "old");
+        assert_int_equal(names_like("m*"), 1);
+        image_clear(&image);
+    }
+}
+
+static void a_missing_ffmpeg_is_named_with_its_package(void **state)
+{
+    (void)state;
+    struct error err;
+    struct frames *frames;
+    setenv("PATH", folder, 1);
+    struct frames_options options = {.movie = "m.mp4", .folder = "f"};
+    assert_refused(frames_open(&options, &frames, &err), STATUS_RESOURCE, "apt install ffmpeg", &err);
+    assert_int_equal(names_like("*"), 0);
+}
+
+static void movies_have_a_known_extension_and_are_no_folders(void **state)
+{
+    (void)state;
+    struct error err;
+    pretend_ffmpeg("exit 1");
+    mkdir("d.mp4", 0777);
+    assert_refused(movie_check("m.avi", &err), STATUS_USAGE, "m.avi: a movie's name must end in .mp4", &err);
+    assert_refused(movie_check("mp4", &err), STATUS_USAGE, "must end in", &err);
+    assert_refused(movie_check("d.mp4", &err), STATUS_FILE, "is a folder", &err);
+    assert_ok(movie_check("M.GIF", &err), &err);
+    struct movie *movie;
+    assert_refused(movie_open("m.mp4", 1, 10, 30, &movie, &err), STATUS_RANGE, "not 1 x 10", &err);
+    assert_refused(movie_open("m.mp4", 10, 10, 0, &movie, &err), STATUS_RANGE, "pictures a second", &err);
+    assert_refused(movie_open("no/m.mp4", 10, 10, 9, &movie, &err), STATUS_FILE, "no/m.mp4: cannot create",
+                   &err);
+}
+
+static void an_abandoned_movie_is_not_there(void **state)
+{
+    (void)state;
+    struct error err;
+    struct movie *movie;
+    struct image image = a_picture(10, 10);
+    pretend_ffmpeg("exec cat >\"$output\"");
+    assert_ok(movie_open("m.gif", 10, 10, 30, &movie, &err), &err);
+    assert_ok(movie_add(movie, &image, &err), &err);
+    movie_abandon(movie);
+    assert_int_equal(names_like("m*"), 0);
+    image_clear(&image);
+}
+
+/* What `ffprobe` says about a movie's first stream. */
+static void probe(const char *path, char *text, size_t size)
+{
+    char command[256];
+    snprintf(command, sizeof command,
+             "ffprobe -v error -count_frames -show_entries stream=width,height,nb_read_frames -of csv=p=0 %s",
+             path);
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    if (!fgets(text, (int)size, pipe))
+        text[0] = '\0';
+    pclose(pipe);
+    text[strcspn(text, "\n")] = '\0';
+}
+
+static void real_movies_have_every_picture_and_even_sides(void **state)
+{
+    (void)state;
+    if (system("command -v ffmpeg >/dev/null && command -v ffprobe >/dev/null")) {
+        print_message("ffmpeg and ffprobe are not installed: no real movie is made\n");
+        skip();
+    }
+    const char *const names[] = {"m.mp4", "m.webm", "m.gif"};
+    const char *const wanted[] = {"96,64,25", "96,64,25", "97,65,25"};
+    for (int i = 0; i < 3; i++) {
+        char text[256];
+        run(&(struct frames_options){.movie = names[i]}, 97, 65, 25);
+        probe(names[i], text, sizeof text);
+        assert_string_equal(text, wanted[i]);
+    }
+}
+
+/* Grey pictures: still for 500, then brighter by 2 with each of 100. */
+static void a_sheet_shows_what_changes_evenly(void **state)
+{
+    (void)state;
+    struct error err;
+    struct sheet sheet = {0};
+    struct image image = a_picture(64, 48), out = {0};
+    for (int n = 0; n < 600; n++) {
+        memset(image.rgb, n < 500 ? 0 : 2 * (n - 499), 3 * 64 * 48);
+        assert_ok(sheet_add(&sheet, &image, n, &err), &err);
+        assert_true(sheet.count <= SHEET_KEPT);
+    }
+    int chosen[SHEET_MOMENTS];
+    assert_int_equal(sheet_choose(&sheet, chosen), 12);
+    assert_true(sheet.moments[chosen[0]].time == 0);
+    assert_true(sheet.moments[chosen[11]].time == 599);
+    for (int k = 1; k < 12;
+         k++) /* one of the kept steps is 100 / 24 pictures at most: half of that is the error */
+        assert_near(sheet.moments[chosen[k]].time, 499 + k * 100 / 11.0, 2.5);
+    assert_ok(sheet_draw(&sheet, &out, &err), &err);
+    assert_int_equal(out.width, 4 * 64 + 5 * 6);
+    assert_int_equal(out.height, 3 * 48 + 4 * 6);
+    assert_int_equal(out.rgb[0], 255);
+    assert_int_equal(out.rgb[3 * (6 * out.width + 6)], 0);
+    assert_int_equal(out.rgb[3 * ((6 + 48 + 6 + 48 + 6) * out.width + out.width - 7)], 200);
+    image_clear(&image);
+    image_clear(&out);
+    sheet_clear(&sheet);
+}
+
+static void a_still_run_is_spaced_evenly_in_time(void **state)
+{
+    (void)state;
+    struct error err;
+    struct sheet sheet = {0};
+    struct image image = a_picture(64, 48);
+    int chosen[SHEET_MOMENTS];
+    for (int n = 0; n < 45; n++)
+        assert_ok(sheet_add(&sheet, &image, n, &err), &err);
+    assert_int_equal(sheet_choose(&sheet, chosen), 12);
+    for (int k = 0; k < 12; k++)
+        assert_near(chosen[k], 4 * k, 0.5);
+    image_clear(&image);
+    sheet_clear(&sheet);
+}
+
+static void a_sheet_of_few_large_pictures_shows_them_all_reduced(void **state)
+{
+    (void)state;
+    struct error err;
+    struct sheet sheet = {0};
+    struct image image = a_picture(1920, 960), out = {0};
+    assert_refused(sheet_draw(&sheet, &out, &err), STATUS_RANGE, "at least one", &err);
+    memset(image.rgb, 77, 3 * 1920 * 960);
+    for (int n = 0; n < 5; n++)
+        assert_ok(sheet_add(&sheet, &image, n * 1e-5, &err), &err);
+    assert_ok(sheet_draw(&sheet, &out, &err), &err);
+    assert_int_equal(out.width, 4 * 480 + 5 * 6);
+    assert_int_equal(out.height, 2 * 240 + 3 * 6);
+    assert_int_equal(out.rgb[3 * (100 * out.width + 100)], 77);
+    assert_int_equal(out.rgb[3 * (400 * out.width + 700)], 255); /* no sixth */
+    image_clear(&image);
+    image_clear(&out);
+    sheet_clear(&sheet);
+}
+
+static void labels_are_cut_off_at_the_edges(void **state)
+{
+    (void)state;
+    struct image image = a_picture(20, 20);
+    label_draw(&image, -7, -3, 2, "-1.5e+07 s");
+    label_draw(&image, 15, 15, 3, "88");
+    image_clear(&image);
+    image = a_picture(10, 10);
+    memset(image.rgb, 255, 300);
+    label_draw(&image, 2, 1, 1, "1"); /* its stem is three dots from the left */
+    for (int y = 1; y < 8; y++)
+        assert_true(image.rgb[3 * (10 * y + 4)] < 100);
+    assert_int_equal(image.rgb[3 * (10 * 8 + 4)], 255);
+    image_clear(&image);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(a_png_holds_the_picture_and_its_texts, empty_folder),
+        cmocka_unit_test_setup(a_png_that_cannot_be_written_says_why, empty_folder),
+        cmocka_unit_test_setup(frames_are_numbered_in_order_and_carry_their_time, empty_folder),
+        cmocka_unit_test_setup(a_folder_that_cannot_be_is_refused_at_once, empty_folder),
+        cmocka_unit_test_setup(a_failure_while_writing_comes_back_and_ends_the_writing, empty_folder),
+        cmocka_unit_test_setup(frames_of_another_size_are_refused, empty_folder),
+        cmocka_unit_test_setup(nothing_asked_for_and_nothing_added_is_fine, empty_folder),
+        cmocka_unit_test_setup(ffmpeg_gets_every_picture_in_order, empty_folder),
+        cmocka_unit_test_setup(a_movie_that_fails_leaves_the_old_one_and_no_other, empty_folder),
+        cmocka_unit_test_setup(a_missing_ffmpeg_is_named_with_its_package, empty_folder),
+        cmocka_unit_test_setup(movies_have_a_known_extension_and_are_no_folders, empty_folder),
+        cmocka_unit_test_setup(an_abandoned_movie_is_not_there, empty_folder),
+        cmocka_unit_test_setup(real_movies_have_every_picture_and_even_sides, empty_folder),
+        cmocka_unit_test(a_sheet_shows_what_changes_evenly),
+        cmocka_unit_test(a_still_run_is_spaced_evenly_in_time),
+        cmocka_unit_test(a_sheet_of_few_large_pictures_shows_them_all_reduced),
+        cmocka_unit_test(labels_are_cut_off_at_the_edges),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
