@@ -10,34 +10,44 @@ struct grid {
     unsigned char cell[SIDE][SIDE][SIDE]; /* [z][y][x] */
 };
 
-/* A box of cells, as a shape. It leaves open what it can, so that splitting and merging have work to do. */
+/* A box of cells, as a shape. A vague one says nothing about cubes that can be split, which is allowed and
+ * gives splitting and merging more to do. */
 struct cells {
     int low[3], high[3];
+    bool vague;
 };
 
-static bool has_cell(const struct cells *cells, const int at[3])
+/* Cells from first to last along each axis: are all of them in the box, is none? */
+static void compare(const struct cells *cells, const int first[3], int side, bool *inside, bool *outside)
 {
-    for (int k = 0; k < 3; k++)
-        if (at[k] < cells->low[k] || at[k] > cells->high[k])
-            return false;
-    return true;
+    *inside = true;
+    *outside = false;
+    for (int k = 0; k < 3; k++) {
+        int last = first[k] + side - 1;
+        *inside = *inside && first[k] >= cells->low[k] && last <= cells->high[k];
+        *outside = *outside || last < cells->low[k] || first[k] > cells->high[k];
+    }
 }
 
 static struct octree_cover cells_cover(const void *shape, const double corner[3], double side, bool cells)
 {
     struct octree_cover cover = {0};
-    for (int i = 0; i < 8 && cells; i++) {
-        int at[3];
+    for (int i = 0; i < 8; i++) {
+        const struct cells *box = shape;
+        int first[3];
+        bool inside, outside;
         for (int k = 0; k < 3; k++)
-            at[k] = (int)lround((corner[k] + (i >> k & 1) * side) * SIDE);
-        cover.inside |= (unsigned)has_cell(shape, at) << i;
+            first[k] = (int)lround((corner[k] + (i >> k & 1) * side) * SIDE);
+        compare(box, first, (int)lround(side * SIDE), &inside, &outside);
+        cover.inside |= (unsigned)(inside && (cells || !box->vague)) << i;
+        cover.outside |= (unsigned)(outside && !box->vague) << i;
     }
     return cover;
 }
 
 static struct cells random_cells(uint64_t *seed)
 {
-    struct cells cells;
+    struct cells cells = {.vague = random_bits(seed) % 2};
     for (int k = 0; k < 3; k++) {
         int a = (int)(random_bits(seed) % SIDE), b = (int)(random_bits(seed) % SIDE);
         cells.low[k] = a < b ? a : b;
@@ -186,7 +196,7 @@ static void a_sculpture_carved_away_leaves_every_block_free(void **state)
     struct grid grid;
     struct error err = {0};
     struct octree tree = random_tree(3, 50, &grid);
-    const struct cells all = {{0, 0, 0}, {SIDE, SIDE, SIDE}};
+    const struct cells all = {{0, 0, 0}, {SIDE, SIDE, SIDE}, false};
     assert_true(tree.block_count > 1);
     assert_ok(octree_apply(&tree, cells_cover, &all, 0, &err), &err);
     assert_int_equal(tree.root, 0);
@@ -260,7 +270,8 @@ static bool paint_leaf(void *context, const struct octree_leaf *leaf)
     visited->leaves++;
     const struct cells cells = {
         {leaf->x, leaf->y, leaf->z},
-        {leaf->x + leaf->side - 1, leaf->y + leaf->side - 1, leaf->z + leaf->side - 1}};
+        {leaf->x + leaf->side - 1, leaf->y + leaf->side - 1, leaf->z + leaf->side - 1},
+        false};
     set_grid(&visited->grid, &cells, leaf->material);
     return true;
 }
