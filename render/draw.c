@@ -154,12 +154,12 @@ static void draw_skins(const struct draw *draw, const struct gl *gl, const float
 }
 
 void draw_eye(const struct draw *draw, const struct gl *gl, const struct render_view *view,
-              const struct camera_eye *eye, const struct geometry *geometry, bool skins)
+              const struct camera_eye *eye, const struct geometry *geometry, int below, bool skins)
 {
     float projection[16];
     const float at[3] = {(float)eye->offset, 0, 0};
     camera_projection(eye, geometry->nearest, geometry->farthest, projection);
-    gl->Viewport(eye->left, 0, eye->width, view->height);
+    gl->Viewport(eye->left, -below, eye->width, view->height);
     gl->Enable(GL_FRAMEBUFFER_SRGB);
     draw_backdrop(draw, gl);
     if (geometry->shadow.visible)

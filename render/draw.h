@@ -5,7 +5,7 @@
  *     struct draw draw = {0};
  *     if (draw_open(&draw, &gl, err)) ...
  *     draw_upload(&draw, &gl, &geometry);                         for each frame
- *     draw_eye(&draw, &gl, &view, &eye, &geometry, true);         for each eye
+ *     draw_eye(&draw, &gl, &view, &eye, &geometry, 0, true);         for each eye
  *     draw_close(&draw, &gl);
  */
 #ifndef RENDER_DRAW_H
@@ -29,8 +29,9 @@ void draw_close(struct draw *draw, const struct gl *gl);
 /* Hands the geometry over, once a frame. */
 void draw_upload(const struct draw *draw, const struct gl *gl, const struct geometry *geometry);
 
-/* Backdrop and shadow, and the skins if wanted, as one eye sees them, within the scissor's rectangle. */
+/* Backdrop and shadow, and the skins if wanted, as one eye sees them, within the scissor's rectangle. The
+ * framebuffer's lowest row is the picture's row `below` from below: a large picture may be drawn in bands. */
 void draw_eye(const struct draw *draw, const struct gl *gl, const struct render_view *view,
-              const struct camera_eye *eye, const struct geometry *geometry, bool skins);
+              const struct camera_eye *eye, const struct geometry *geometry, int below, bool skins);
 
 #endif

@@ -15,9 +15,14 @@ struct render {
     struct geometry geometry;
 };
 
-static int samples_of(const struct render_view *view)
+/* A target holds at most this many pixels; larger pictures are drawn in bands, so that they need little more
+ * memory than themselves. */
+enum { BAND_PIXELS = 1 << 22 };
+
+static enum status bind_band(struct render *render, int width, int height, bool smooth, struct error *err)
 {
-    return view->smooth_edges ? 4 : 1;
+    int rows = BAND_PIXELS / width < height ? BAND_PIXELS / width : height;
+    return target_bind(&render->target, &render->gl, width, rows, smooth ? 4 : 1, err);
 }
 
 static enum status open_parts(struct render *render, int width, int height, struct error *err)
@@ -28,7 +33,7 @@ static enum status open_parts(struct render *render, int width, int height, stru
     if (!status)
         status = draw_open(&render->draw, &render->gl, err);
     if (!status)
-        status = target_bind(&render->target, &render->gl, width, height, 1, err);
+        status = bind_band(render, width, height, false, err);
     return status;
 }
 
@@ -49,32 +54,67 @@ enum status render_open(int width, int height, struct render **result, struct er
     return STATUS_OK;
 }
 
+/* The box of the picture that the skins may meet, moved into the band from row `below` on. */
+static void find_box(const struct render *render, const struct render_view *view,
+                     const struct camera_eye *eye, int below, int box[4])
+{
+    const struct geometry *g = &render->geometry;
+    camera_pixels(view, eye, g->low, g->high, g->nearest, g->farthest, box);
+    int bottom = box[1] - below, top = bottom + box[3], rows = render->target.height;
+    box[1] = bottom < 0 ? 0 : bottom;
+    top = top < rows ? top : rows;
+    box[3] = top > box[1] ? top - box[1] : 0;
+}
+
 /* Smooth edges are costly: only the part of the picture that the skins may meet is drawn with more than one
  * sample a pixel; the backdrop around it needs none. */
-static void draw_smoothly(struct render *render, const struct render_view *view, const struct camera_eye *eye)
+static void draw_smoothly(struct render *render, const struct render_view *view, const struct camera_eye *eye,
+                          int below)
 {
     const struct gl *gl = &render->gl;
     const struct geometry *g = &render->geometry;
     int box[4];
-    camera_pixels(view, eye, g->low, g->high, g->nearest, g->farthest, box);
-    gl->Disable(GL_SCISSOR_TEST);
+    find_box(render, view, eye, below, box);
     target_bind_resolved(&render->target, gl);
-    draw_eye(&render->draw, gl, view, eye, g, false);
+    draw_eye(&render->draw, gl, view, eye, g, below, false);
+    if (!box[2] || !box[3])
+        return;
     target_bind_drawn(&render->target, gl);
     gl->Enable(GL_SCISSOR_TEST);
     gl->Scissor(box[0], box[1], box[2], box[3]);
-    draw_eye(&render->draw, gl, view, eye, g, true);
+    draw_eye(&render->draw, gl, view, eye, g, below, true);
     gl->Disable(GL_SCISSOR_TEST);
     target_resolve(&render->target, gl, box);
 }
 
-static void draw_plainly(struct render *render, const struct render_view *view, const struct camera_eye *eye)
+static void draw_plainly(struct render *render, const struct render_view *view, const struct camera_eye *eye,
+                         int below)
 {
     const struct gl *gl = &render->gl;
     gl->Enable(GL_SCISSOR_TEST);
-    gl->Scissor(eye->left, 0, eye->width, view->height);
-    draw_eye(&render->draw, gl, view, eye, &render->geometry, true);
+    gl->Scissor(eye->left, 0, eye->width, render->target.height);
+    draw_eye(&render->draw, gl, view, eye, &render->geometry, below, true);
     gl->Disable(GL_SCISSOR_TEST);
+}
+
+static enum status draw_bands(struct render *render, const struct render_view *view, struct image *out,
+                              struct error *err)
+{
+    struct camera_eye eyes[2];
+    int count = camera_eyes(view, eyes), rows = render->target.height;
+    enum status status = STATUS_OK;
+    for (int below = 0; below < view->height && !status; below += rows) {
+        target_bind_drawn(&render->target, &render->gl);
+        for (int i = 0; i < count; i++) {
+            if (view->smooth_edges)
+                draw_smoothly(render, view, &eyes[i], below);
+            else
+                draw_plainly(render, view, &eyes[i], below);
+        }
+        int left = view->height - below;
+        status = target_read(&render->target, &render->gl, out, below, left < rows ? left : rows, err);
+    }
+    return status;
 }
 
 enum status render_draw(struct render *render, const struct render_view *view,
@@ -89,19 +129,11 @@ enum status render_draw(struct render *render, const struct render_view *view,
     if (!status)
         status = context_use(render->context, err);
     if (!status)
-        status = target_bind(&render->target, &render->gl, view->width, view->height, samples_of(view), err);
+        status = bind_band(render, view->width, view->height, view->smooth_edges, err);
     if (status)
         return status;
-    struct camera_eye eyes[2];
-    int count = camera_eyes(view, eyes);
     draw_upload(&render->draw, &render->gl, &render->geometry);
-    for (int i = 0; i < count; i++) {
-        if (view->smooth_edges)
-            draw_smoothly(render, view, &eyes[i]);
-        else
-            draw_plainly(render, view, &eyes[i]);
-    }
-    return target_read(&render->target, &render->gl, out, err);
+    return draw_bands(render, view, out, err);
 }
 
 void render_close(struct render *render)

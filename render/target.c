@@ -74,12 +74,12 @@ void target_resolve(const struct target *target, const struct gl *gl, const int 
                         GL_NEAREST);
 }
 
-static void copy_rows(const struct target *target, struct image *out)
+static void copy_rows(const struct target *target, struct image *out, int below, int rows)
 {
     size_t width = (size_t)target->width;
-    for (int y = 0; y < target->height; y++) {
-        const unsigned char *from = target->pixels + 4 * width * (size_t)(target->height - 1 - y);
-        unsigned char *to = out->rgb + 3 * width * (size_t)y;
+    for (int y = 0; y < rows; y++) {
+        const unsigned char *from = target->pixels + 4 * width * (size_t)y;
+        unsigned char *to = out->rgb + 3 * width * (size_t)(out->height - 1 - below - y);
         for (size_t x = 0; x < width; x++) {
             to[3 * x] = from[4 * x];
             to[3 * x + 1] = from[4 * x + 1];
@@ -88,17 +88,17 @@ static void copy_rows(const struct target *target, struct image *out)
     }
 }
 
-enum status target_read(struct target *target, const struct gl *gl, struct image *out, struct error *err)
+enum status target_read(struct target *target, const struct gl *gl, struct image *out, int below, int rows,
+                        struct error *err)
 {
-    int width = target->width, height = target->height;
     if (!target->pixels)
-        target->pixels = array_new((size_t)width * (size_t)height, 4);
+        target->pixels = array_new((size_t)target->width * (size_t)target->height, 4);
     if (!target->pixels)
         return error_no_memory(err, "the picture");
     gl->BindFramebuffer(GL_READ_FRAMEBUFFER, target->resolved ? target->resolved : target->drawn);
     gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
-    gl->ReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, target->pixels);
-    copy_rows(target, out);
+    gl->ReadPixels(0, 0, target->width, rows, GL_RGBA, GL_UNSIGNED_BYTE, target->pixels);
+    copy_rows(target, out, below, rows);
     return STATUS_OK;
 }
 

@@ -26,8 +26,10 @@ void target_bind_drawn(const struct target *target, const struct gl *gl);
 void target_bind_resolved(const struct target *target, const struct gl *gl);
 void target_resolve(const struct target *target, const struct gl *gl, const int box[4]);
 
-/* Copies the picture to the image, which has the target's size. Errors: STATUS_NO_MEMORY. */
-enum status target_read(struct target *target, const struct gl *gl, struct image *out, struct error *err);
+/* Copies the lowest `rows` rows to the image, as wide as the target, from its row `below` from below upwards.
+ * Errors: STATUS_NO_MEMORY. */
+enum status target_read(struct target *target, const struct gl *gl, struct image *out, int below, int rows,
+                        struct error *err);
 
 void target_clear(struct target *target, const struct gl *gl);
 

@@ -246,21 +246,24 @@ static void nothing_asked_for_and_nothing_added_is_fine(void **state)
     assert_int_equal(names_like("*"), 1);
 }
 
+/* An ffmpeg that is slow to begin: what fits neither the pipe (64 KiB) nor the queue must wait for it, though
+ * the PNGs are long written. */
 static void ffmpeg_gets_every_picture_in_order(void **state)
 {
     (void)state;
-    pretend_ffmpeg("cat >\"$output\"; echo \"$@\" >arguments");
-    run(&(struct frames_options){.movie = "a movie.mp4", .folder = "f", .rate = 12.5}, 6, 4, 50);
+    enum { WIDTH = 60, HEIGHT = 40, SIZE = 3 * WIDTH * HEIGHT };
+    pretend_ffmpeg("sleep 0.2; cat >\"$output\"; echo \"$@\" >arguments");
+    run(&(struct frames_options){.movie = "a movie.mp4", .folder = "f", .rate = 12.5}, WIDTH, HEIGHT, 50);
     struct error err;
     struct bytes movie = {0};
-    struct image wanted = a_picture(6, 4);
+    struct image wanted = a_picture(WIDTH, HEIGHT);
     assert_ok(file_read("a movie.mp4", &movie, &err), &err);
-    assert_int_equal(movie.size, 50 * 72);
+    assert_int_equal(movie.size, 50 * SIZE);
     for (int n = 0; n < 50; n++) {
         paint(&wanted, n);
-        assert_memory_equal(movie.data + 72 * n, wanted.rgb, 72);
+        assert_memory_equal(movie.data + SIZE * n, wanted.rgb, SIZE);
     }
-    assert_file_has("arguments", "-s 6x4 -framerate 12.500000 ", 28);
+    assert_file_has("arguments", "-s 60x40 -framerate 12.500000 ", 30);
     assert_int_equal(names_like("f/*"), 50);
     assert_int_equal(names_like("*.mp4"), 1);
     bytes_clear(&movie);

@@ -139,10 +139,10 @@ static void the_nearer_hides_the_farther_whichever_comes_first(void **state)
 static void opacity_one_half_blends_half_of_what_lies_behind(void **state)
 {
     (void)state;
-    struct cards black = {0}, cards = {0};
-    add_card(&black, -2, -2, 2, 2, -1);
+    struct cards grey = {0}, cards = {0};
+    add_card(&grey, -2, -2, 2, 2, -1);
     add_card(&cards, -1, -1, 1, 1, 0);
-    struct render_skin skins[2] = {skin_of(&black, 0, 0, 0), skin_of(&cards, 1, 1, 1)};
+    struct render_skin skins[2] = {skin_of(&grey, 0.1f, 0.1f, 0.1f), skin_of(&cards, 1, 1, 1)};
     struct render_view view = square_view();
     struct image behind = drawn(&view, skins, 1), opaque = drawn(&view, skins, 2);
     cards.opacity[0] = cards.opacity[1] = 0.5f;
@@ -485,6 +485,26 @@ static void impossible_sizes_and_cameras_are_refused_and_a_single_pixel_is_not(v
     image_clear(&image);
 }
 
+/* 4.4 million pixels, of which a band holds 4.2. */
+static void large_pictures_have_no_seam(void **state)
+{
+    (void)state;
+    struct cards cards = {0};
+    add_card(&cards, -1, -2, 1, 1, 0);
+    struct render_skin skin = skin_of(&cards, 1, 0, 0);
+    struct render_view view = square_view();
+    view.width = view.height = 2100;
+    for (int smooth = 0; smooth < 2; smooth++) {
+        view.smooth_edges = smooth;
+        struct image image = drawn(&view, &skin, 1);
+        double middle[2];
+        assert_int_equal(red_middle(&image, 0, 2100, middle), 1050 * 1575);
+        assert_near(middle[0], 1050, 1e-9);
+        assert_near(middle[1], 525 + 1575 / 2.0, 1e-9);
+        image_clear(&image);
+    }
+}
+
 static void two_renderers_live_side_by_side(void **state)
 {
     (void)state;
@@ -543,6 +563,7 @@ int main(void)
         cmocka_unit_test(what_flew_away_too_far_is_left_out),
         cmocka_unit_test(bad_elements_are_refused_by_name),
         cmocka_unit_test(impossible_sizes_and_cameras_are_refused_and_a_single_pixel_is_not),
+        cmocka_unit_test(large_pictures_have_no_seam),
         cmocka_unit_test(two_renderers_live_side_by_side),
     };
     return cmocka_run_group_tests(tests, open_renderer, close_renderer);
