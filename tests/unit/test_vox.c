@@ -310,17 +310,17 @@ static void nested_moves_add_up_and_hidden_parts_are_left_out(void **state)
     add_shape(&model, 5, 0);
     add_shape(&model, 3, 0);
     add_transform(&model, 6, 7, NULL, "100 0 0", true);
-    add_transform(&model, 4, 5, NULL, "2 0 0", false);
+    add_transform(&model, 4, 5, NULL, "2 1 0", false);
     add_transform(&model, 2, 3, NULL, NULL, false);
     add_group(&model, 1, (const uint32_t[]){2, 8, 6}, 3);
     add_group(&model, 9, (const uint32_t[]){4}, 1);
-    add_transform(&model, 8, 9, "17", "5 0 0", false); /* 2 along x becomes 2 along y */
+    add_transform(&model, 8, 9, "17", "5 0 0", false); /* 2 1 becomes -1 2 */
     add_transform(&model, 0, 1, NULL, NULL, false);
     struct octree tree = load(&model);
     struct octree_info info = octree_measure(&tree);
     assert_int_equal(info.cells, 2);
-    /* the cell spans 0 .. 1; turned about the origin it spans -1 .. 0 along x: 5 - 1, and 2 along y */
-    assert_int_equal(info.high[0] - info.low[0], 4);
+    /* the cell spans 0 .. 1; turned about the origin it spans -1 .. 0 along x: 5 - 1 - 1, and 2 along y */
+    assert_int_equal(info.high[0] - info.low[0], 3);
     assert_int_equal(info.high[2] - info.low[2], 2);
     octree_clear(&tree);
 }
@@ -542,7 +542,7 @@ static void a_long_sculpture_is_saved_as_several_models(void **state)
     struct error err = {0};
     struct octree tree = {0};
     assert_ok(octree_init(&tree, 9, 0, &err), &err);
-    struct chip rod = {CHIP_CAPSULE, 3, {0.05, 0.1, 0.52, 0.9, 0.95, 0.48, 0.004, 0.01}};
+    struct chip rod = {CHIP_CAPSULE, 3, {0.05, 0.1, 0.9, 0.9, 0.95, 0.2, 0.004, 0.01}};
     assert_ok(sculpt_chip(&tree, &rod, &err), &err);
     assert_round_trip(&tree);
     octree_clear(&tree);
