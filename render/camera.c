@@ -17,7 +17,7 @@ static double radians(double deg)
     return deg * (M_PI / 180);
 }
 
-/* x right, y up, z towards the viewer. False where up is along the line of sight, or anything is no number. */
+/* x right, y up, z towards the viewer. False where up is along the line of sight, or a number is none. */
 static bool find_axes(const double towards_viewer[3], const double up[3], double axis[3][3])
 {
     double length = vec3_length(towards_viewer);

@@ -34,7 +34,7 @@ void camera_turn(const struct camera_space *space, const double direction[3], do
 int camera_eyes(const struct render_view *view, struct camera_eye eyes[2]);
 
 /* The part of the whole picture (x, y from below, width, height in pixels) that holds what this eye sees at
- * distances nearest .. farthest between low and high, which are x and y at distance 1 seen from the origin. */
+ * distances nearest .. farthest between low and high: x and y at distance 1 as seen from the origin. */
 void camera_pixels(const struct render_view *view, const struct camera_eye *eye, const double low[2],
                    const double high[2], double nearest, double farthest, int box[4]);
 

@@ -128,8 +128,9 @@ static void draw_shadow(const struct draw *draw, const struct gl *gl, const floa
     gl->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
-/* The depth of the whole framebuffer, or of the scissor's part, begins anew. Opaque triangles hide by depth; translucent ones are hidden by those, and lie over one another in their
- * order. The shader gives the light to add and the share of each colour to keep of what lies behind. */
+/* The depth of the whole framebuffer, or of the scissor's part, begins anew. Opaque triangles hide by
+ * depth; translucent ones are hidden by those, and lie over one another in their order. The shader gives the
+ * light to add and the share of each colour to keep of what lies behind. */
 static void draw_skins(const struct draw *draw, const struct gl *gl, const float projection[16],
                        const float eye[3], const struct geometry *g)
 {

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Corners further than this (in units of eye to target) are not drawn: the floats of a projection end there. */
+/* Corners further than this (in units of eye to target) are not drawn: a projection's floats end there. */
 static const double limit = 1e9;
 static const double nearest_drawn = 0.004, farthest_drawn = 1e4;
 static const float opaque_from = 0.999f; /* less than half of 1/255 shows through */
@@ -147,7 +147,7 @@ static uint32_t corner_vertex(struct building *b, uint32_t t, int k, const doubl
     return vertex;
 }
 
-/* The normal of the triangle itself; any direction where it has no area. False where it is too far to draw. */
+/* The normal of the triangle itself; any direction where it has no area. False where it is too far. */
 static bool facet_normal(const struct building *b, uint32_t t, double facet[3])
 {
     const struct mesh *mesh = b->skin->mesh;
@@ -222,7 +222,7 @@ static enum status add_skin(struct building *b, struct error *err)
     for (int i = 0; i < 3; i++)
         b->colour[i] = (uint16_t)lrintf(clamp(b->skin->colour[i], 0, 1) * 65535);
     enum status status = check_triangles(b, err);
-    if (status)
+    if (status || !triangles)
         return status;
     g->sums.count = 0;
     if (g->vertices.count + corners + mesh->point_count > UINT32_MAX)

@@ -22,9 +22,9 @@ struct movie;
  * installed, STATUS_FILE where path is a folder. */
 enum status movie_check(const char *path, struct error *err);
 
-/* Starts ffmpeg for pictures of this size, `rate` of them a second (above 0, at most 1000). Sizes that are odd
- * lose their last column or row, since movies halve their colours' resolution. Errors: those of
- * movie_check(); STATUS_RANGE for a side below 2 or a rate out of range; STATUS_FILE, STATUS_NO_MEMORY. */
+/* Starts ffmpeg for pictures of this size, `rate` of them a second (above 0, at most 1000). Odd sizes
+ * lose their last column or row, since movies halve their colours' resolution (.gif does not). Errors: those
+ * of movie_check(); STATUS_RANGE for a side below 2 or a rate out of range; STATUS_FILE, STATUS_NO_MEMORY. */
 enum status movie_open(const char *path, int width, int height, double rate, struct movie **movie,
                        struct error *err);
 

@@ -27,8 +27,8 @@ const char shader_skin_vertex[] = "#version 330 core\n"
  *
  * Opacity is that of the skin seen straight on. Seen at an angle light takes a path longer by 1 / cos of the
  * refracted angle (Snell, index 1.52), so by Beer and Lambert what passes is (1 - opacity)^path. A skin holds
- * back its own colour less than the others; grey skin, none more than another. What is drawn is the light that
- * the skin adds and, for each colour, the share that passes it from behind.
+ * back its own colour less than the others; grey skin, none more than another. What is drawn is the light
+ * that the skin adds and, for each colour, the share that passes it from behind.
  *
  * The highlight is the mirror image of two soft boxes, blurred as a Phong lobe of this exponent blurs it: a
  * Gaussian of standard deviation 1/sqrt(exponent), of which a box is a product of differences of the error

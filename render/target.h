@@ -1,4 +1,4 @@
-/* The picture that the graphics card draws into, off-screen: sRGB, with depth, one or four samples a pixel. */
+/* The picture that the graphics card draws into, off-screen: sRGB, depth, one or four samples a pixel. */
 #ifndef RENDER_TARGET_H
 #define RENDER_TARGET_H
 

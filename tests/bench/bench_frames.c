@@ -1,4 +1,4 @@
-/* What frames cost: a sphere of 3000 triangles whose skin thins, drawn and written, 400 frames of 1280 wide. */
+/* What frames cost: a sphere of 3000 triangles whose skin thins, drawn and written, 400 stereo frames. */
 #include "render/frames.h"
 #include "render/render.h"
 

@@ -485,6 +485,19 @@ static void impossible_sizes_and_cameras_are_refused_and_a_single_pixel_is_not(v
     image_clear(&image);
 }
 
+static void an_empty_mesh_is_drawn_as_nothing(void **state)
+{
+    (void)state;
+    struct mesh mesh = {0};
+    struct render_skin skin = {.mesh = &mesh, .colour = {1, 0, 0}};
+    struct render_view view = square_view();
+    view.floor = view.smooth_edges = true;
+    struct image image = drawn(&view, &skin, 1), without = drawn(&view, NULL, 0);
+    assert_same_picture(&image, &without);
+    image_clear(&image);
+    image_clear(&without);
+}
+
 /* 4.4 million pixels, of which a band holds 4.2. */
 static void large_pictures_have_no_seam(void **state)
 {
@@ -563,6 +576,7 @@ int main(void)
         cmocka_unit_test(what_flew_away_too_far_is_left_out),
         cmocka_unit_test(bad_elements_are_refused_by_name),
         cmocka_unit_test(impossible_sizes_and_cameras_are_refused_and_a_single_pixel_is_not),
+        cmocka_unit_test(an_empty_mesh_is_drawn_as_nothing),
         cmocka_unit_test(large_pictures_have_no_seam),
         cmocka_unit_test(two_renderers_live_side_by_side),
     };
