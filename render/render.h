@@ -69,7 +69,7 @@ enum status render_open(int width, int height, struct render **render, struct er
 
 /* Draws all skins into *out, which is resized to the view. Of the distance from eye to target, what is nearer
  * than 0.004 or further than 1e4 times is cut off, and a triangle with a corner 1e9 times away is left out.
- * Where a normal is zero or not finite the facet's own is taken; opacity and shininess outside their range are
+ * Where a normal is zero or not finite the facet's own is taken; opacity and shininess out of range are
  * clamped. Large pictures are drawn in bands and need little more memory than the image itself. Errors:
  * STATUS_RANGE for a size or camera that is not possible, and for a drawn triangle with a corner that is out
  * of range or at no finite place, or whose opacity or shininess is nan; the message names it.
