@@ -215,22 +215,28 @@ static const struct field_items *near_cell(struct probe *probe, const int cell[3
     return near;
 }
 
+/* An item's one-dimensional sum along an axis and its slope. */
+static double item_sum(const struct profile *p, const struct field_item *item, int axis, double *slope)
+{
+    int low = profile_index(p->first, p->last, item->low[axis]), track = item->track[axis];
+    int high = profile_index(p->first, p->last, item->high[axis]);
+    *slope = p->slope[track][high] - p->slope[track][low];
+    return p->sum[track][high] - p->sum[track][low];
+}
+
 static double add_up(const struct profile axis[3], const struct field_items *near, double gradient[3])
 {
     double value = 0;
-    gradient[0] = gradient[1] = gradient[2] = 0;
     for (size_t i = 0; i < near->count; i++) {
         const struct field_item *item = &near->items[i];
         double sum[3], slope[3];
-        for (int a = 0; a < 3; a++) {
-            const struct profile *p = &axis[a];
-            int low = profile_index(p->first, p->last, item->low[a]);
-            int high = profile_index(p->first, p->last, item->high[a]);
-            sum[a] = p->sum[item->track[a]][high] - p->sum[item->track[a]][low];
-            slope[a] = p->slope[item->track[a]][high] - p->slope[item->track[a]][low];
-        }
-        value += item->weight * sum[2] * sum[1] * sum[0];
-        gradient[0] += item->weight * sum[2] * sum[1] * slope[0];
+        if ((sum[0] = item_sum(&axis[0], item, 0, &slope[0])) == 0 ||
+            (sum[1] = item_sum(&axis[1], item, 1, &slope[1])) == 0 ||
+            (sum[2] = item_sum(&axis[2], item, 2, &slope[2])) == 0)
+            continue;
+        double zy = item->weight * sum[2] * sum[1];
+        value += zy * sum[0];
+        gradient[0] += zy * slope[0];
         gradient[1] += item->weight * sum[2] * slope[1] * sum[0];
         gradient[2] += item->weight * slope[2] * sum[1] * sum[0];
     }

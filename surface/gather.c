@@ -110,9 +110,10 @@ bool field_gather(const struct field *field, const int low[3], const int high[3]
 void field_reach(const struct field *field, const double low[3], const double high[3], int cell_low[3],
                  int cell_high[3])
 {
+    /* A face may belong to the cell below it. */
+    int below = field->lattice[TRACK_AREA].used;
     for (int axis = 0; axis < 3; axis++) {
-        /* A face belongs to the cell inside it, which may lie one further than the face. */
-        cell_low[axis] = (int)fmin(fmax(floor(low[axis] - field->reach) - 1, 0), field->side);
-        cell_high[axis] = (int)fmax(fmin(floor(high[axis] + field->reach) + 1, field->side - 1), -1);
+        cell_low[axis] = (int)fmin(fmax(floor(low[axis] - field->reach) - below, 0), field->side);
+        cell_high[axis] = (int)fmax(fmin(floor(high[axis] + field->reach), field->side - 1), -1);
     }
 }
