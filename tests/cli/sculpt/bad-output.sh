@@ -1,0 +1,16 @@
+# A full disk, a read-only folder, an impossible name: a message, and what was there stays.
+refused 1 '/dev/full: cannot write: No space left' balloon-sculpt -o /dev/full
+refused 1 '/proc/a\.oct: cannot create' balloon-sculpt -o /proc/a.oct
+refused 1 'no/such/a\.oct: cannot create' balloon-sculpt -o no/such/a.oct
+refused 1 '/proc/a\.vox: cannot create' balloon-sculpt --export /proc/a.vox
+refused 1 '/proc/a\.ply: cannot create' balloon-sculpt --export /proc/a.ply
+refused 1 '/proc/a\.chips: cannot create' balloon-sculpt --export /proc/a.chips
+refused 1 '/proc/a\.png: cannot create' balloon-sculpt --render /proc/a.png
+mkdir folder.oct
+refused 1 'folder\.oct: is a folder' balloon-sculpt -o folder.oct
+echo 'start empty' >empty.chips
+refused 1 'a\.vox: the sculpture is empty' balloon-sculpt --script empty.chips --export a.vox
+refused 1 'a\.ply: the sculpture is empty' balloon-sculpt --script empty.chips --export a.ply
+only_files folder.oct empty.chips
+expect 1 sh -c 'balloon-sculpt --info >/dev/full'
+stderr_has 'cannot write the results'
