@@ -94,6 +94,9 @@ const char *mesh_report_repairs(const struct mesh_report *report, char *text, si
  * STATUS_INPUT, STATUS_NO_MEMORY, STATUS_RANGE. */
 enum status mesh_load(const char *path, struct mesh *mesh, struct error *err);
 
+/* True when the name ends as those files do, upper or lower case. */
+bool mesh_is_file_name(const char *path);
+
 /* Writes .ply (binary little endian, positions to the bit; with normals where the mesh has them), .stl
  * (binary, positions rounded to float, no normals of points) or .obj (all digits), by extension. Errors:
  * STATUS_USAGE for another extension, STATUS_RANGE where STL's floats cannot hold a position, STATUS_FILE,

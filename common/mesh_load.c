@@ -14,12 +14,25 @@ static const struct {
     {"obj", mesh_read_obj},
 };
 
-enum status mesh_load(const char *path, struct mesh *mesh, struct error *err)
+enum { FORMATS = sizeof formats / sizeof *formats };
+
+static size_t format_of(const char *path)
 {
     size_t i = 0;
-    while (i < sizeof formats / sizeof *formats && !file_has_extension(path, formats[i].extension))
+    while (i < FORMATS && !file_has_extension(path, formats[i].extension))
         i++;
-    if (i == sizeof formats / sizeof *formats)
+    return i;
+}
+
+bool mesh_is_file_name(const char *path)
+{
+    return format_of(path) < FORMATS;
+}
+
+enum status mesh_load(const char *path, struct mesh *mesh, struct error *err)
+{
+    const size_t i = format_of(path);
+    if (i == FORMATS)
         return error_set(err, STATUS_INPUT, "%s: no known mesh file; must be .ply, .stl or .obj", path);
     struct bytes bytes = {0};
     struct mesh loaded = {0};

@@ -39,7 +39,7 @@
     X(spring_factor, NUMBER, 0, 1e6, "1", "", LIVE, "the spring constants' weight", "paper 3.5")            \
     X(damping, NUMBER, 0, 1e9, "1", "force s/length", LIVE, "against the speed of closing along an edge",   \
       "paper 2")                                                                                            \
-    X(threshold, NUMBER, 1, 1e6, "2", "", LIVE, "an edge lets go at this length over the mean rest length", \
+    X(threshold, NUMBER, 1, 1e300, "2", "", LIVE, "an edge lets go at this length over the mean rest length", \
       "paper 4")                                                                                            \
     X(pressure, NUMBER, -1e9, 1e9, "10", "force", LIVE, "on each point, along its normal", "paper 3.2")     \
     X(colour, VECTOR, 0, 1, "[0.85, 0.09, 0.12]", "", 0, "red, green and blue (sRGB) of the skin at rest",  \

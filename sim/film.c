@@ -49,6 +49,9 @@ static void set_camera(struct render_view *view, const struct sim *sim)
     view->height = scene->size[1];
     view->stereo = stereo[scene->stereo];
     view->sorted = true;
+    view->smooth_edges = true;
+    view->floor = true;
+    view->floor_height = centre[1] - 1.8 * radius;
     camera->field_of_view_deg = scene->field_of_view;
     camera->screen_distance = vec3_distance(camera->eye, camera->target);
     camera->eye_distance = scene->eye_distance * camera->screen_distance;

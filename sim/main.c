@@ -62,6 +62,8 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         o->log = argument;
         break;
     case 'o':
+        if (!mesh_is_file_name(argument))
+            argp_error(state, "-o %s: must end in .ply, .stl or .obj", argument);
         o->mesh = argument;
         break;
     case OPTION_HASH:
@@ -99,10 +101,8 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
 
 static enum status load_scene(const struct options *options, struct scene *scene, struct error *err)
 {
-    const bool mesh = file_has_extension(options->scene, "ply") ||
-                      file_has_extension(options->scene, "stl") || file_has_extension(options->scene, "obj");
-    enum status status = mesh ? scene_from_mesh(options->scene, scene, err)
-                              : scene_load(options->scene, scene, err);
+    enum status status = mesh_is_file_name(options->scene) ? scene_from_mesh(options->scene, scene, err)
+                                                           : scene_load(options->scene, scene, err);
     for (size_t i = 0; i < options->set_count && !status; i++)
         status = scene_set(scene, options->set[i], err);
     return status ? status : scene_check(scene, err);

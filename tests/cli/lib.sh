@@ -49,3 +49,25 @@ only_files()
         case " $* " in *" $found "*) ;; *) [ -e "$found" ] && fail "$found was left behind" ;; esac
     done
 }
+
+# ply FILE POINTS TRIANGLES: an ASCII .ply of "x y z" lines and "a b c" lines.
+ply()
+{
+    {
+        printf 'ply\nformat ascii 1.0\nelement vertex %d\n' "$(printf '%s\n' "$2" | wc -l)"
+        printf 'property double x\nproperty double y\nproperty double z\n'
+        printf 'element face %d\nproperty list uchar int vertex_indices\nend_header\n' "$(printf '%s\n' "$3" | wc -l)"
+        printf '%s\n' "$2"
+        printf '%s\n' "$3" | sed 's/^/3 /'
+    } >"$1"
+}
+
+# A tetrahedron, wound outward: the smallest balloon.
+tetra_points='0 0 0
+1 0 0
+0 1 0
+0 0 1'
+tetra_triangles='0 2 1
+0 1 3
+0 3 2
+1 2 3'

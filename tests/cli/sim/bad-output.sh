@@ -1,0 +1,21 @@
+# A full disk, a read-only folder, a file where a folder should be: a message, and what was there stays.
+ply m.ply "$tetra_points" "$tetra_triangles"
+short='--set time.end=0.1 --set view.size=[64,48]'
+refused 1 '/dev/full: cannot write: No space left' balloon-sim m.ply $short --log /dev/full
+refused 1 '/proc/log.tsv: cannot create' balloon-sim m.ply $short --log /proc/log.tsv
+refused 1 'no/such/log.tsv: cannot create' balloon-sim m.ply $short --log no/such/log.tsv
+echo here >frames
+refused 1 'frames: is a file' balloon-sim m.ply $short --frames frames --log log.tsv
+[ "$(cat frames)" = here ] || fail "the file is gone"
+no_file log.tsv
+refused 1 '/proc/frames: cannot make' balloon-sim m.ply $short --frames /proc/frames
+refused 1 '/proc/sheet.png: cannot' balloon-sim m.ply $short --contact-sheet /proc/sheet.png
+refused 1 '/dev/full: cannot write' balloon-sim m.ply $short --contact-sheet /dev/full
+refused 2 '-o end.xyz: must end in .ply, .stl or .obj' balloon-sim m.ply $short -o end.xyz --log log.tsv
+no_file end.xyz
+no_file log.tsv
+echo old >log.tsv
+refused 1 '' balloon-sim m.ply $short --log log.tsv -o /proc/end.ply
+only_files m.ply frames log.tsv
+expect 1 sh -c 'balloon-sim "$@" >/dev/full' sh m.ply $short
+stderr_has 'cannot write the results'
