@@ -40,15 +40,15 @@ static const struct scene_field schedule_fields[] = {SCENE_SCHEDULE_FIELDS(SCHED
 
 const struct scene_block scene_blocks[] = {
     {"time", "", false, FIELDS(time_fields), offsetof(struct scene, time), SIZE_MAX,
-     "how time is cut into steps"},
+     "How time is cut into steps"},
     {"view", "", false, FIELDS(view_fields), offsetof(struct scene, view), SIZE_MAX,
-     "how the pictures are taken"},
-    {"balloons", "", true, FIELDS(balloon_fields), 0, SIZE_MAX, "a list: one block { ... } a balloon"},
+     "How the pictures are taken"},
+    {"balloons", "", true, FIELDS(balloon_fields), 0, SIZE_MAX, "A list: one block { ... } a balloon"},
     {"spring_by_height", "balloons", false, FIELDS(spring_by_height_fields), EFFECT(spring_by_height),
-     "spring constants that vary with height, as the skin's thickness does"},
-    {"rip", "balloons", false, FIELDS(rip_fields), EFFECT(rip), "an artificial rip"},
+     "Spring constants that vary with height, as the skin's thickness does"},
+    {"rip", "balloons", false, FIELDS(rip_fields), EFFECT(rip), "An artificial rip"},
     {"schedule", "", true, FIELDS(schedule_fields), 0, SIZE_MAX,
-     "a list: one block { at = ...; and the keys that change then }"},
+     "A list: one block { at = ...; and the keys that change then }"},
 };
 const size_t scene_block_count = sizeof scene_blocks / sizeof scene_blocks[0];
 
