@@ -296,11 +296,15 @@ enum status geometry_build(struct geometry *g, const struct render_view *view,
         if (status)
             return status;
     }
-    g->farthest = fmin(fmax(g->farthest * 1.01, 2 * nearest_drawn), farthest_drawn);
-    g->nearest = fmin(fmax(g->nearest * 0.99, nearest_drawn), g->farthest / 2);
     g->shadow.visible = false;
     if (view->floor)
         geometry_cast_shadow(&g->shadow, &space, view->floor_height, skins, skin_count);
+    for (int k = 0; k < 4 && g->shadow.visible; k++) {
+        g->nearest = fmin(g->nearest, -g->shadow.corner[k][2]);
+        g->farthest = fmax(g->farthest, -g->shadow.corner[k][2]);
+    }
+    g->farthest = fmin(fmax(g->farthest * 1.01, 2 * nearest_drawn), farthest_drawn);
+    g->nearest = fmin(fmax(g->nearest * 0.99, nearest_drawn), g->farthest / 2);
     return order_triangles(g, view->sorted, err);
 }
 

@@ -412,6 +412,30 @@ static void a_floor_takes_a_shadow_and_none_is_seen_from_below(void **state)
     sphere_free(&mesh);
 }
 
+/* Seen from just above the floor the shadow lies further away than the skin, and is whole all the same. */
+static void a_shadow_has_no_edge(void **state)
+{
+    (void)state;
+    struct mesh mesh = sphere_new(20, 20);
+    struct render_skin skin = {.mesh = &mesh, .colour = {0.7f, 0.1f, 0.1f}};
+    struct render_view view = square_view();
+    view.camera.eye[1] = 2;
+    view.floor = true;
+    view.floor_height = -1.5;
+    struct image image = drawn(&view, &skin, 1);
+    int darkest = 255;
+    for (int y = 152; y < 200; y++) /* below the sphere */
+        for (int x = 0; x < 200; x++) {
+            assert_near(pixel(&image, x, y)[1], pixel(&image, x, y - 1)[1], 4);
+            darkest = pixel(&image, x, y)[1] < darkest ? pixel(&image, x, y)[1] : darkest;
+        }
+    for (int y = 1; y < 200; y++) /* beside it */
+        assert_near(pixel(&image, 40, y)[1], pixel(&image, 40, y - 1)[1], 4);
+    assert_true(darkest < 180);
+    image_clear(&image);
+    sphere_free(&mesh);
+}
+
 static void a_camera_inside_the_balloon_sees_its_wall(void **state)
 {
     (void)state;
@@ -572,6 +596,7 @@ int main(void)
         cmocka_unit_test(opacity_is_smooth_unless_facets_are_wanted),
         cmocka_unit_test(pictures_are_srgb),
         cmocka_unit_test(a_floor_takes_a_shadow_and_none_is_seen_from_below),
+        cmocka_unit_test(a_shadow_has_no_edge),
         cmocka_unit_test(a_camera_inside_the_balloon_sees_its_wall),
         cmocka_unit_test(what_flew_away_too_far_is_left_out),
         cmocka_unit_test(bad_elements_are_refused_by_name),
