@@ -87,6 +87,10 @@ enum status octree_apply(struct octree *tree, octree_shape *covers, const void *
 /* Sets one cell; the cell must lie in the cube. */
 enum status octree_set(struct octree *tree, int x, int y, int z, unsigned material, struct error *err);
 
+/* Fills what is empty and cannot be reached from outside, going from cell to cell across faces; *cells is how many
+ * cells that were. (Material 0 fills nothing: it only counts.) Errors: STATUS_NO_MEMORY, with the tree as it was. */
+enum status octree_fill_hollows(struct octree *tree, unsigned material, uint64_t *cells, struct error *err);
+
 /* A leaf, as a visitor meets it: its first cell, its side in cells, its material. */
 struct octree_leaf {
     int x, y, z, side;

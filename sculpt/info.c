@@ -11,6 +11,17 @@ static bool count_material(void *context, const struct octree_leaf *leaf)
     return true;
 }
 
+unsigned info_main_material(const struct octree *tree)
+{
+    struct materials materials = {0};
+    unsigned most = 1;
+    octree_visit_all(tree, count_material, &materials);
+    for (unsigned m = 2; m < OCTREE_MATERIALS; m++)
+        if (materials.cells[m] > materials.cells[most])
+            most = m;
+    return most;
+}
+
 static void print_bounds(const struct octree_info *info, double cell, FILE *stream)
 {
     static const char *const names[3] = {"bounds x", "bounds y", "bounds z"};

@@ -22,12 +22,14 @@ enum option_key {
     OPTION_RENDER,
     OPTION_INFO,
     OPTION_DEPTH,
+    OPTION_SOLID,
 };
 
 static const struct argp_option option_list[] = {
     {"script", OPTION_SCRIPT, "FILE.chips", 0, "carve what the script says", 0},
     {"import", OPTION_IMPORT, "FILE.vox", 0, "begin with a MagicaVoxel model", 0},
     {"depth", OPTION_DEPTH, "N", 0, "a new cube has 2^N cells a side, N from 0 to 10 (6)", 0},
+    {"solid", OPTION_SOLID, NULL, 0, "fill the hollows of what is begun with", 0},
     {"output", 'o', "FILE.oct", 0, "save the sculpture", 0},
     {"export", OPTION_EXPORT, "FILE", 0,
      "write .vox (MagicaVoxel), .ply (the faces of the cubes) or .chips (a script); may be repeated", 0},
@@ -42,7 +44,7 @@ struct options {
     const char **exports;
     size_t export_count;
     long depth; /* -1: not given */
-    bool info;
+    bool info, solid;
 };
 
 static error_t parse_option(int key, char *argument, struct argp_state *state)
@@ -63,6 +65,9 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         return 0;
     case OPTION_INFO:
         options->info = true;
+        return 0;
+    case OPTION_SOLID:
+        options->solid = true;
         return 0;
     case OPTION_DEPTH:
         options->depth = command_whole(state, "--depth", argument, 0, OCTREE_DEPTH_MAX);
@@ -126,6 +131,8 @@ static enum status check_options(const struct options *options, struct error *er
         if (exporter_of(options->exports[i]) < 0)
             return error_set(err, STATUS_USAGE, "--export %s: .vox, .ply and .chips are written",
                              options->exports[i]);
+    if (options->solid && !options->import && !options->file)
+        return error_set(err, STATUS_USAGE, "--solid: a new cube has no hollows; give FILE.oct or --import");
     bool asks = options->output || options->export_count || options->picture || options->info;
     if (!asks && (options->script || options->import || options->depth >= 0))
         return error_set(err, STATUS_USAGE,
@@ -175,6 +182,20 @@ static enum status carve(const struct options *options, struct octree *tree, str
     return status;
 }
 
+/* Models are often shells, and a shell makes a balloon inside a balloon: so hollows are filled, or told of. */
+static enum status fill_hollows(const struct options *options, struct octree *tree, struct error *err)
+{
+    uint64_t cells;
+    if (!options->solid && !options->import)
+        return STATUS_OK;
+    enum status status = octree_fill_hollows(tree, options->solid ? info_main_material(tree) : 0, &cells,
+                                             err);
+    if (!status && cells > 0 && !options->solid)
+        command_note("%s is hollow: %llu cells within are empty; --solid fills them", options->import,
+                     (unsigned long long)cells);
+    return status;
+}
+
 static enum status make(const struct options *options, struct octree *tree, struct error *err)
 {
     enum status status;
@@ -184,6 +205,8 @@ static enum status make(const struct options *options, struct octree *tree, stru
         status = vox_load(options->import, tree, err);
     else
         status = octree_init(tree, options->depth >= 0 ? (unsigned)options->depth : DEPTH_DEFAULT, 1, err);
+    if (!status)
+        status = fill_hollows(options, tree, err);
     if (!status && options->script)
         status = carve(options, tree, err);
     return status;

@@ -371,6 +371,84 @@ static void every_exposed_face_is_met_once_and_looks_out(void **state)
     octree_clear(&tree);
 }
 
+/* A cube with holes of up to 5 cells a side, some of which meet each other or the outside. */
+static struct octree holey_tree(uint64_t seed, struct grid *grid)
+{
+    struct error err = {0};
+    struct octree tree = new_tree(1);
+    memset(grid, 1, sizeof *grid);
+    for (int i = 0; i < 40; i++) {
+        struct cells hole = {.vague = false};
+        for (int k = 0; k < 3; k++) {
+            hole.low[k] = (int)(random_bits(&seed) % SIDE);
+            hole.high[k] = hole.low[k] + (int)(random_bits(&seed) % 5);
+            hole.high[k] = hole.high[k] < SIDE ? hole.high[k] : SIDE - 1;
+        }
+        assert_ok(octree_apply(&tree, cells_cover, &hole, 0, &err), &err);
+        set_grid(grid, &hole, 0);
+    }
+    return tree;
+}
+
+/* Spreads 255 over the empty cells that are joined to the outside, until nothing changes. */
+static void flood_grid(struct grid *grid)
+{
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (int i = 0; i < CELLS; i++) {
+            int x = i % SIDE, y = i / SIDE % SIDE, z = i / SIDE / SIDE;
+            bool at_border = !x || !y || !z || x == SIDE - 1 || y == SIDE - 1 || z == SIDE - 1;
+            if (grid->cell[z][y][x] != 0)
+                continue;
+            if (at_border || at_or_outside(grid, x - 1, y, z) == 255 ||
+                at_or_outside(grid, x + 1, y, z) == 255 || at_or_outside(grid, x, y - 1, z) == 255 ||
+                at_or_outside(grid, x, y + 1, z) == 255 || at_or_outside(grid, x, y, z - 1) == 255 ||
+                at_or_outside(grid, x, y, z + 1) == 255) {
+                grid->cell[z][y][x] = 255;
+                changed = true;
+            }
+        }
+    }
+}
+
+static void hollows_are_what_a_flood_of_the_grid_does_not_reach(void **state)
+{
+    (void)state;
+    uint64_t hollows = 0;
+    for (uint64_t seed = 20; seed < 40; seed++) {
+        struct grid grid;
+        struct error err = {0};
+        struct octree tree = holey_tree(seed, &grid);
+        uint64_t cells = 0, expected = 0;
+        flood_grid(&grid);
+        for (int i = 0; i < CELLS; i++) {
+            unsigned char *cell = &grid.cell[0][0][0] + i;
+            expected += *cell == 0;
+            *cell = *cell == 0 ? 7 : *cell == 255 ? 0 : *cell;
+        }
+        assert_ok(octree_fill_hollows(&tree, 7, &cells, &err), &err);
+        assert_int_equal(cells, expected);
+        assert_same_cells(&tree, &grid);
+        assert_sound(&tree);
+        hollows += cells;
+        octree_clear(&tree);
+    }
+    assert_true(hollows > 100);
+}
+
+static void cubes_of_one_leaf_have_no_hollows(void **state)
+{
+    (void)state;
+    for (unsigned material = 0; material < 2; material++) {
+        struct error err = {0};
+        struct octree tree = new_tree(material);
+        uint64_t cells = 1;
+        assert_ok(octree_fill_hollows(&tree, 7, &cells, &err), &err);
+        assert_int_equal(cells, 0);
+        assert_int_equal(tree.root, material);
+    }
+}
+
 static void bounds_and_cells_are_those_of_the_grid(void **state)
 {
     (void)state;
@@ -404,6 +482,8 @@ int main(void)
         cmocka_unit_test(a_visit_of_some_cells_meets_the_leaves_that_touch_them),
         cmocka_unit_test(a_visitor_can_end_the_walk),
         cmocka_unit_test(every_exposed_face_is_met_once_and_looks_out),
+        cmocka_unit_test(hollows_are_what_a_flood_of_the_grid_does_not_reach),
+        cmocka_unit_test(cubes_of_one_leaf_have_no_hollows),
         cmocka_unit_test(bounds_and_cells_are_those_of_the_grid),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
