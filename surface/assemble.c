@@ -48,8 +48,8 @@ static void find_neighbours(struct assembly *a, const struct brick *brick)
     }
 }
 
-/* The number of the vertex on an edge of the cell at x, y, z. The brick that owns it is there: the cells around a
- * crossed edge have all been followed. */
+/* The number of the vertex on an edge of the cell at x, y, z. The brick that owns it is there: the cells
+ * around a crossed edge have all been followed. */
 static uint32_t vertex_number(const struct assembly *a, const int at[3], int edge)
 {
     int base = a->m->cells.ends[edge][0], axis = edge / 4;
@@ -61,7 +61,8 @@ static uint32_t vertex_number(const struct assembly *a, const int at[3], int edg
     return (uint32_t)(brick->vertex_first + brick->rank[z][axis] + (size_t)__builtin_popcountll(before));
 }
 
-/* Bit f: the field in the middle of ambiguous face f is inside. Both cells of a face ask at the same place. */
+/* Bit f: the field in the middle of ambiguous face f is inside. Both cells of a face ask at the same place.
+ * */
 static unsigned faces_joined(const struct assembly *a, const int at[3], unsigned ambiguous)
 {
     unsigned joined = 0;
@@ -88,8 +89,8 @@ static bool add_triangle(struct assembly *a, uint32_t p, uint32_t q, uint32_t r)
     return true;
 }
 
-/* A point of the surface near the loop's middle: from there towards the corner of the cell on the other side of the
- * surface where it is met first. */
+/* A point of the surface near the loop's middle: from there towards the corner of the cell on the other
+ * side of the surface where it is met first. */
 static void find_middle(const struct assembly *a, const int at[3], unsigned inside, const double middle[3],
                         struct vertex *vertex)
 {

@@ -37,7 +37,8 @@ static void link_face(const struct cell_table *table, int face, unsigned inside,
     for (int i = 0; i < 4; i++) {
         if (inside >> corner[i] & 1 || !(inside >> corner[(i + 1) % 4] & 1))
             continue;
-        /* Leaves after the run of inside corners, or, where those belong together, before the run of outside ones. */
+        /* Leaves after the run of inside corners, or, where those belong together, before the run of
+         * outside ones. */
         int leave = (i + 1) % 4;
         if (joined)
             leave = (i + 3) % 4;
@@ -104,9 +105,9 @@ static double sharpness(const double a[3], const double b[3], const double c[3])
     return fmax(p, fmax(q, r));
 }
 
-/* best[i][j]: the sharpest angle's cosine in the best triangulation of the part of the loop from i to j; apex[i][j]:
- * the corner of the triangle on its chord. Klincsek's dynamic programme ("Minimal triangulations of polygonal
- * domains", 1980) with the smallest angle for a measure. */
+/* best[i][j]: the sharpest angle's cosine in the best triangulation of the part of the loop from i to j;
+ * apex[i][j]: the corner of the triangle on its chord. Klincsek's dynamic programme ("Minimal
+ * triangulations of polygonal domains", 1980) with the smallest angle for a measure. */
 struct plan {
     double best[CELL_EDGES][CELL_EDGES];
     uint8_t apex[CELL_EDGES][CELL_EDGES];

@@ -45,8 +45,8 @@ static void set_lattices(struct field *field, const struct field_settings *setti
     field->lattice[TRACK_PLANE] = (struct field_lattice){area, 1, 0, 1};
 }
 
-/* The largest sum over a lattice of its Gaussians. The sum over all integers of exp(-k^2 c) is largest on a point,
- * and sum_{k >= 1} exp(-k^2 c) <= integral of exp(-t^2 c) over t > 0. */
+/* The largest sum over a lattice of its Gaussians. The sum over all integers of exp(-k^2 c) is largest on a
+ * point, and sum_{k >= 1} exp(-k^2 c) <= integral of exp(-t^2 c) over t > 0. */
 static double largest_sum(const struct field *field, const struct field_lattice *lattice)
 {
     if (lattice->spacing == 0)
@@ -54,8 +54,8 @@ static double largest_sum(const struct field *field, const struct field_lattice 
     return lattice->weight * (1 + field->sigma * SQRT_2PI / lattice->spacing);
 }
 
-/* The largest sum over a lattice of the absolute slopes |t|/s^2 exp(-t^2/2s^2): each is at most exp(-1/2)/s, and
- * to either side of that maximum the sum is below the first term plus the integral. */
+/* The largest sum over a lattice of the absolute slopes |t|/s^2 exp(-t^2/2s^2): each is at most
+ * exp(-1/2)/s, and to either side of that maximum the sum is below the first term plus the integral. */
 static double largest_slope_sum(const struct field *field, const struct field_lattice *lattice)
 {
     double shift = 1 - exp(-field->cutoff * field->cutoff / 2);
@@ -73,9 +73,10 @@ static double largest_steepness(const struct field *field)
         sum[k] = largest_sum(field, &field->lattice[k]);
         slope[k] = largest_slope_sum(field, &field->lattice[k]);
     }
-    /* The exact field's derivative along a direction is its convolution with the Gaussian's, so it is at most
-     * (high - low) times the mass of the positive half of that: 1/(s sqrt(2 pi)). Cutting off by a box adds the steps
-     * at its faces, exp(-R^2/2) of the same for each axis, and divides by the mass within. */
+    /* The exact field's derivative along a direction is its convolution with the Gaussian's, so it is at
+     * most (high - low) times the mass of the positive half of that: 1/(s sqrt(2 pi)). Cutting off by a box
+     * adds the steps at its faces, exp(-R^2/2) of the same for each axis, and divides by the mass within.
+     * */
     double steepness = 0;
     const struct field_lattice *volume = &field->lattice[TRACK_VOLUME];
     if (volume->used && volume->spacing == 0)

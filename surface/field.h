@@ -1,6 +1,6 @@
 /*
- * The Gaussian field of a sculpture (paper 3.4): f(p) = sum over its fields of b_k exp(-r^2 / (2 s^2)), and its
- * limit of infinitely many fields.
+ * The Gaussian field of a sculpture (paper 3.4): f(p) = sum over its fields of b_k exp(-r^2 / (2 s^2)), and
+ * its limit of infinitely many fields.
  *
  *     struct field field;
  *     if (field_init(&field, &tree, &settings, err)) ...
@@ -18,23 +18,24 @@
  *
  * - In the volume, N = n^3 fields a cell, at the centres of its n x n x n sub-cells, each of weight
  *   (1/n)^3 / ((2 pi)^(3/2) s^3): the field tends to 1 deep inside as N or s grows.
- * - `exact`, the limit of that for large N: the convolution of the sculpture with the normalised Gaussian. Over a
- *   box it is the product over the axes of (erf((b-x)/(s sqrt 2)) - erf((a-x)/(s sqrt 2))) / 2.
+ * - `exact`, the limit of that for large N: the convolution of the sculpture with the normalised Gaussian.
+ *   Over a box it is the product over the axes of (erf((b-x)/(s sqrt 2)) - erf((a-x)/(s sqrt 2))) / 2.
  * - On the surface, A fields per unit of area (of which the first cube's face has 1) on each face between
- *   material and emptiness, at the points of a square lattice of spacing 1/sqrt(A) that is the same for all faces
- *   in a plane and begins half a spacing from the first cube's edge, each of weight 1/(A 2 pi s^2), s in units of
- *   the first cube: on a large flat face they add up to 1, and add to the volume's fields.
+ *   material and emptiness, at the points of a square lattice of spacing 1/sqrt(A) that is the same for all
+ *   faces in a plane and begins half a spacing from the first cube's edge, each of weight 1/(A 2 pi s^2),
+ *   s in units of the first cube: on a large flat face they add up to 1, and add to the volume's fields.
  *
  * All are multiplied by their material's coefficient b_k (octree.coefficient).
  *
- * Cut-off. A one-dimensional Gaussian ends at R s: for lattices it is (exp(-t^2/2s^2) - e)/(1 - e), e = exp(-R^2/2),
- * and for `exact` the normal distribution cut off at R and normalised again. So the field is continuous, which lets
- * roots be found to the last digit, and a leaf further away than R s along any axis contributes exactly nothing.
- * The error of an `exact` field is at most 3 erfc(R/sqrt 2) of the largest |b_k|: the mass of the Gaussian outside
- * the cube of half side R s (1.7e-6 at R = 5, 5.9e-9 at R = 6).
+ * Cut-off. A one-dimensional Gaussian ends at R s: for lattices it is (exp(-t^2/2s^2) - e)/(1 - e), e =
+ * exp(-R^2/2), and for `exact` the normal distribution cut off at R and normalised again. So the field is
+ * continuous, which lets roots be found to the last digit, and a leaf further away than R s along any axis
+ * contributes exactly nothing. The error of an `exact` field is at most 3 erfc(R/sqrt 2) times the range of
+ * the b_k, 0 among them: the mass of the Gaussian outside the cube of half side R s (1.7e-6 at R = 5, 5.9e-9
+ * at R = 6).
  *
- * The value at a point is a pure function of the point: sums run in the octree's Morton order, and what is out of
- * reach adds exactly 0, so any two ways to gather the leaves give the same bits.
+ * The value at a point is a pure function of the point: sums run in the octree's Morton order, and what is
+ * out of reach adds exactly 0, so any two ways to gather the leaves give the same bits.
  */
 #ifndef SURFACE_FIELD_H
 #define SURFACE_FIELD_H
@@ -83,8 +84,8 @@ struct field {
 enum status field_init(struct field *field, const struct octree *tree, const struct field_settings *settings,
                        struct error *err);
 
-/* One-dimensional sums at a coordinate x. sum[track][i - first] is that over all lattice points below plane i, for
- * first <= i <= last; below and above it is constant. slope is its derivative by x. */
+/* One-dimensional sums at a coordinate x. sum[track][i - first] is that over all lattice points below plane
+ * i, for first <= i <= last; below and above it is constant. slope is its derivative by x. */
 struct profile {
     int first, last;
     double *sum[FIELD_TRACKS], *slope[FIELD_TRACKS]; /* [field.profile_room]; slope NULL: not wanted */
@@ -109,8 +110,8 @@ struct field_items {
     size_t count, capacity;
 };
 
-/* All boxes of fields that have a part in the cells low .. high (both included), in Morton order of their leaves.
- * False when there is no memory. */
+/* All boxes of fields that have a part in the cells low .. high (both included), in Morton order of their
+ * leaves. False when there is no memory. */
 bool field_gather(const struct field *field, const int low[3], const int high[3], struct field_items *out);
 
 /* The box of cells whose fields reach a point of low .. high. */

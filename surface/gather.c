@@ -31,8 +31,8 @@ static int smaller(int a, int b)
     return a < b ? a : b;
 }
 
-/* One row of cells along a leaf's face: the runs of it that border on emptiness. `cell` is the first cell outside
- * the leaf, u the axis along the row, `end` the cell after the row's last. */
+/* One row of cells along a leaf's face: the runs of it that border on emptiness. `cell` is the first cell
+ * outside the leaf, u the axis along the row, `end` the cell after the row's last. */
 static bool push_row(struct gathering *g, int cell[3], int u, int end, struct field_item face)
 {
     int begin = cell[u];
@@ -51,7 +51,8 @@ static bool push_row(struct gathering *g, int cell[3], int u, int end, struct fi
     return true;
 }
 
-/* The exposed part of the face of a leaf across `axis`, on its upper or lower side, as far as it is in the box. */
+/* The exposed part of the face of a leaf across `axis`, on its upper or lower side, as far as it is in the
+ * box. */
 static bool push_face(struct gathering *g, const struct octree_leaf *leaf, int axis, bool upper)
 {
     int start[3] = {leaf->x, leaf->y, leaf->z}, u = (axis + 1) % 3, v = (axis + 2) % 3;

@@ -6,10 +6,10 @@
  *     grid_sample(&grid, first_corner, 9, &scratch, values)
  *     grid_clear(&grid);
  *
- * Corner (i, j, k) lies at ((i + 1/2) h, (j + 1/2) h, (k + 1/2) h), h the cube size, so that the faces of the
- * sculpture's cells, where an exact field is half the inside's, fall between corners whenever h divides a cell's
- * side. Cell (i, j, k) has that corner as its lowest. The one-dimensional sums of the field are tabulated once for
- * each coordinate; all three axes share the table.
+ * Corner (i, j, k) lies at ((i + 1/2) h, (j + 1/2) h, (k + 1/2) h), h the cube size, so that the faces of
+ * the sculpture's cells, where an exact field is half the inside's, fall between corners whenever h divides
+ * a cell's side. Cell (i, j, k) has that corner as its lowest. The one-dimensional sums of the field are
+ * tabulated once for each coordinate; all three axes share the table.
  */
 #ifndef SURFACE_GRID_H
 #define SURFACE_GRID_H
@@ -42,9 +42,9 @@ static inline double grid_coordinate(const struct grid *grid, int line)
     return (line + 0.5) * grid->cube;
 }
 
-/* The field at count^3 corners (count at most BRICK_CORNERS) from `corner` on, x fastest. The same corner gets the
- * same bits whichever block it is sampled in. False when there is no memory for `scratch`, which is kept from call
- * to call and freed by the caller. */
+/* The field at count^3 corners (count at most BRICK_CORNERS) from `corner` on, x fastest. The same corner
+ * gets the same bits whichever block it is sampled in. False when there is no memory for `scratch`, which
+ * is kept from call to call and freed by the caller. */
 bool grid_sample(const struct grid *grid, const int corner[3], int count, struct field_items *scratch,
                  double *values);
 

@@ -287,8 +287,8 @@ int main(int argc, char **argv)
         option_list,
         parse,
         "FILE.oct",
-        "Lays Gaussians over a sculpture and writes the surface where their sum passes a threshold as a closed mesh "
-        "of triangles.",
+        "Lays Gaussians over a sculpture and writes the surface where their sum passes a threshold as a closed "
+        "mesh of triangles.",
         NULL,
         NULL,
         NULL};

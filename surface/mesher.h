@@ -3,15 +3,15 @@
  *
  *     struct mesher m;
  *     if (mesher_init(&m, &field, threshold, cube, err)) ...
- *     seeds_random(&m, seed); seeds_descent(&m);       finds all bricks with a part of the surface, follows it
+ *     seeds_random(&m, seed); seeds_descent(&m);     find and follow all parts of it
  *     if (m.failed) ...                                memory ran out somewhere
  *     if (mesher_assemble(&m, mesh, err)) ...
  *     mesher_clear(&m);
  *
- * A brick of 8 x 8 x 8 cells is sampled at once, with the corners it shares with its upper neighbours, so it needs
- * nobody else's values; the vertices on the edges that it owns (those that begin in its 8 x 8 x 8 lowest corners)
- * are found then too, and only signs and vertices are kept. A vertex's number is its brick's first plus its rank
- * among the crossed edges, so there is no table of vertices to search.
+ * A brick of 8 x 8 x 8 cells is sampled at once, with the corners it shares with its upper neighbours, so
+ * it needs nobody else's values; the vertices on the edges that it owns (those that begin in its 8 x 8 x 8
+ * lowest corners) are found then too, and only signs and vertices are kept. A vertex's number is its
+ * brick's first plus its rank among the crossed edges, so there is no table of vertices to search.
  */
 #ifndef SURFACE_MESHER_H
 #define SURFACE_MESHER_H
@@ -84,8 +84,8 @@ enum status mesher_init(struct mesher *m, const struct field *field, double thre
                         struct error *err);
 void mesher_clear(struct mesher *m);
 
-/* The brick at this place, sampled now if it is new. MESH_NONE: the surface does not pass through it (it is not
- * kept), or memory ran out. */
+/* The brick at this place, sampled now if it is new. MESH_NONE: the surface does not pass through it (it is
+ * not kept), or memory ran out. */
 uint32_t brick_get(struct mesher *m, const int at[3]);
 
 /* The same, without sampling. */
@@ -101,12 +101,13 @@ unsigned cell_inside(const struct brick *brick, int x, int y, int z);
 /* Finds the vertices of a brick whose values are in m->values. */
 void brick_find_vertices(struct mesher *m, struct brick *brick);
 
-/* The point where the field passes the threshold between two points, one inside (excess f - T >= 0), one outside. In
- * the octree's cells; gradient is the field's there. */
+/* The point where the field passes the threshold between two points, one inside (excess f - T >= 0), one
+ * outside. In the octree's cells; gradient is the field's there. */
 void find_crossing(struct mesher *m, const double inside[3], double inside_excess, const double outside[3],
                    double outside_excess, double point[3], double gradient[3]);
 
-/* Fills *vertex from a point in cells and the field's gradient there; `outwards` stands in for a gradient of 0. */
+/* Fills *vertex from a point in cells and the field's gradient there; `outwards` stands in for a gradient
+ * of 0. */
 void vertex_set(const struct mesher *m, const double point[3], const double gradient[3],
                 const double outwards[3], struct vertex *vertex);
 

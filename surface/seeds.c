@@ -9,10 +9,11 @@
 /*
  * Proofs that a brick can be left out. Where it is small against sigma, the field's steepness serves (see
  * far_from_threshold). Otherwise, let all cells within `reach` of a box be of one material k (or all empty,
- * b_k = 0). Of a point of the box, let M be the sum of the one-dimensional Gaussians of the whole lattice, between
- * `least` and `most`, and at most `tail` what of it lies further than `reach` to either side. Then the near cells
- * contribute between b_k (least - tail)^3 and b_k most^3, and all others at most B 3 tail most^2, B = max |b|; of
- * area fields there are only others. If the threshold is not in between, the box is on one side of it.
+ * b_k = 0). Of a point of the box, let M be the sum of the one-dimensional Gaussians of the whole lattice,
+ * between `least` and `most`, and at most `tail` what of it lies further than `reach` to either side. Then
+ * the near cells contribute between b_k (least - tail)^3 and b_k most^3, and all others at most B 3 tail
+ * most^2, B = max |b|; of area fields there are only others. If the threshold is not in between, the box is
+ * on one side of it.
  */
 struct bounds {
     double reach;                    /* in cells */
@@ -30,8 +31,9 @@ static struct sums lattice_sums(const struct field *field, const struct field_la
         return (struct sums){0, 0, 0};
     if (lattice->spacing == 0)
         return (struct sums){1, 1, r < R ? erfc(r / M_SQRT2) : 0};
-    /* By Poisson's sum formula the sum over the whole lattice ripples about weight s sqrt(2 pi) / spacing = `mean` by
-     * at most 2 sum exp(-2 (pi j s/spacing)^2) of it; cutting off takes away no more than `cut`. */
+    /* By Poisson's sum formula the sum over the whole lattice ripples about weight s sqrt(2 pi) / spacing =
+     * `mean` by at most 2 sum exp(-2 (pi j s/spacing)^2) of it; cutting off takes away no more than `cut`.
+     * */
     double mean = lattice->weight * s * sqrt(2 * M_PI) / lattice->spacing, ripple = 0;
     for (int j = 1; j < 50; j++)
         ripple += 2 * exp(-2 * pow(M_PI * j * s / lattice->spacing, 2));
@@ -44,7 +46,8 @@ static struct sums lattice_sums(const struct field *field, const struct field_la
     return (struct sums){fmax(mean * (1 - ripple) - cut, 0), most, tail};
 }
 
-/* Whether a box of coefficient b, `far` being the most that others contribute, is on one side of the threshold. */
+/* Whether a box of coefficient b, `far` being the most that others contribute, is on one side of the
+ * threshold. */
 static bool one_sided(double b, struct sums volume, double far, double threshold)
 {
     double near = fmax(volume.least - volume.tail, 0), low = b * pow(near, 3), high = b * pow(volume.most, 3);
@@ -216,8 +219,8 @@ static void on_the_way(const int a[3], const int b[3], long steps, int corner[3]
     }
 }
 
-/* Halves the way between two corners on different sides down to one edge, and follows the surface from there. True
- * when that part of it is new. */
+/* Halves the way between two corners on different sides down to one edge, and follows the surface from
+ * there. True when that part of it is new. */
 static bool follow_between(struct mesher *m, const int a[3], const int b[3])
 {
     long low = 0, high = 0;

@@ -21,14 +21,15 @@ struct making {
     struct surface_stats *stats;
 };
 
-/* A surface of area A, of the sculpture's exposed faces, crosses A / h^2 edges of a grid of cubes h: each face
- * A / 3 of the edges across it, whatever way the true surface bends. Twice as many triangles. */
+/* A surface of area A, of the sculpture's exposed faces, crosses A / h^2 edges of a grid of cubes h: each
+ * face A / 3 of the edges across it, whatever way the true surface bends. Twice as many triangles. */
 static double expected_points(const struct making *making, double cube)
 {
     return (double)making->info.exposed_faces / (cube * cube);
 }
 
-/* Bytes at the peak for each point: its vertex, its place in the mesh, two triangles twice, its share of a brick. */
+/* Bytes at the peak for each point: its vertex, its place in the mesh, two triangles twice, its share of a
+ * brick. */
 enum { POINT_BYTES = 170 };
 
 static double usable_memory(void)
@@ -98,8 +99,9 @@ static double default_cube(const struct making *making)
     return fmin(1.0 / 3, extent / 24.0);
 }
 
-/* Chooses the cube size for a number of triangles. Their number falls like 1/h^2, though in steps: each turn
- * corrects by that law, halving instead where that would leave the sizes known to give too many and too few. */
+/* Chooses the cube size for a number of triangles. Their number falls like 1/h^2, though in steps: each
+ * turn corrects by that law, halving instead where that would leave the sizes known to give too many and
+ * too few. */
 static enum status choose_cube(const struct making *making, double *cube, struct error *err)
 {
     double wanted = making->options->triangles, low = 0, high = INFINITY, best = INFINITY;

@@ -1,6 +1,6 @@
 /*
- * From an octree to a balloon's mesh (paper 3.4): Gaussians are laid over the sculpture and the surface where their
- * sum passes a threshold is followed from cell to cell of marching cubes.
+ * From an octree to a balloon's mesh (paper 3.4): Gaussians are laid over the sculpture and the surface
+ * where their sum passes a threshold is followed from cell to cell of marching cubes.
  *
  *     struct surface_options options = surface_defaults();
  *     options.triangles = 3000;
@@ -11,11 +11,12 @@
  *     struct surface_shape shape;
  *     if (surface_measure(&mesh, &shape, err)) ...
  *
- * What the mesh is: closed, wound counter-clockwise seen from outside, every edge in exactly two triangles, the
- * triangles of each point in one ring; every component that the grid of cubes can see is there (see surface_seeds).
- * Points lie on the surface, |f - T| < 1e-9 (stats.worst_residual says how near), normals are unit vectors along
- * -gradient. Points and triangles are ordered by their place in space (Morton order of bricks of 8 x 8 x 8 cubes),
- * so the result is the same to the byte however its parts were found.
+ * What the mesh is: closed, wound counter-clockwise seen from outside, every edge in exactly two triangles,
+ * the triangles of each point in one ring; every component that the grid of cubes can see is there (see
+ * surface_seeds). Points lie on the surface, |f - T| < 1e-9 (stats.worst_residual says how near), normals
+ * are unit vectors along
+ * -gradient. Points and triangles are ordered by their place in space (Morton order of bricks of 8 x 8 x 8
+ * cubes), so the result is the same to the byte however its parts were found.
  */
 #ifndef SURFACE_SURFACE_H
 #define SURFACE_SURFACE_H
@@ -27,12 +28,12 @@
 /*
  * Where the following begins.
  *
- * SURFACE_DESCENT goes down the octree of bricks and leaves out a brick only when bounds on the field prove that all
- * its corners are on one side of the threshold; all cubes of the others are looked at, so no component is missed
- * that has a cube's corner on its other side.
- * SURFACE_RANDOM begins at (0,0,0) and then at random points, as in the paper: from each it walks towards a point on
- * the other side of the surface, halving the way, and follows what it meets. Since this may miss components, the
- * descent looks afterwards for what is left; stats.seeds_random says how far the random points came by themselves.
+ * SURFACE_DESCENT goes down the octree of bricks and leaves out a brick only when bounds on the field prove
+ * that all its corners are on one side of the threshold; all cubes of the others are looked at, so no
+ * component is missed that has a cube's corner on its other side. SURFACE_RANDOM begins at (0,0,0) and then
+ * at random points, as in the paper: from each it walks towards a point on the other side of the surface,
+ * halving the way, and follows what it meets. Since this may miss components, the descent looks afterwards
+ * for what is left; stats.seeds_random says how far the random points came by themselves.
  */
 enum surface_seeds { SURFACE_DESCENT, SURFACE_RANDOM };
 
@@ -59,10 +60,10 @@ struct surface_stats {
     size_t bytes;               /* of memory at the peak, without the octree */
 };
 
-/* Errors: STATUS_INPUT for an empty sculpture and a threshold that the field does not reach (naming the largest
- * value found); STATUS_RANGE for options out of range, a cube size larger than the object (naming one that works) or
- * so small that memory would not hold the mesh (naming the estimate); STATUS_NO_MEMORY. *mesh, which must be empty,
- * stays so on failure. */
+/* Errors: STATUS_INPUT for an empty sculpture and a threshold that the field does not reach (naming the
+ * largest value found); STATUS_RANGE for options out of range, a cube size larger than the object (naming
+ * one that works) or so small that memory would not hold the mesh (naming the estimate); STATUS_NO_MEMORY.
+ * *mesh, which must be empty, stays so on failure. */
 enum status surface_make(const struct octree *tree, const struct surface_options *options, struct mesh *mesh,
                          struct surface_stats *stats, struct error *err);
 

@@ -6,17 +6,17 @@
 #include <string.h>
 
 /*
- * A corner of the grid that happens to lie almost on the surface would get three or more vertices almost in one
- * place: slivers, and sides that vanish in a file of single precision. Such a corner is moved away from the surface,
- * along the gradient to its own side, until it is about CLEARANCE cubes away. It stays inside or outside as it was,
- * so which edges are crossed does not change, and vertices are still found on the true surface: only the edge that
- * they are looked for on is bent. Where a corner goes depends on the field there alone, so all edges and bricks that
- * share it agree.
+ * A corner of the grid that happens to lie almost on the surface would get three or more vertices almost in
+ * one place: slivers, and sides that vanish in a file of single precision. Such a corner is moved away from
+ * the surface, along the gradient to its own side, until it is about CLEARANCE cubes away. It stays inside
+ * or outside as it was, so which edges are crossed does not change, and vertices are still found on the
+ * true surface: only the edge that they are looked for on is bent. Where a corner goes depends on the field
+ * there alone, so all edges and bricks that share it agree.
  */
 #define CLEARANCE 0.2
 
-/* No vertex is nearer to an edge's end than this share of it, even where a corner cannot move (a threshold that is
- * the field's extreme value, where the gradient vanishes). */
+/* No vertex is nearer to an edge's end than this share of it, even where a corner cannot move (a threshold
+ * that is the field's extreme value, where the gradient vanishes). */
 #define LEAST_SHARE 1e-6
 
 /* Well below the 1e-9 that is promised, since Newton's method squares the error at each turn. */
@@ -56,8 +56,8 @@ static const struct moved_corner *corner_of(struct mesher *m, const struct brick
     return corner;
 }
 
-/* Newton's method along the segment, kept between the last points known to be inside and outside; where a step would
- * leave that bracket it is halved instead. */
+/* Newton's method along the segment, kept between the last points known to be inside and outside; where a
+ * step would leave that bracket it is halved instead. */
 void find_crossing(struct mesher *m, const double inside[3], double inside_excess, const double outside[3],
                    double outside_excess, double point[3], double gradient[3])
 {

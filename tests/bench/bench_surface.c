@@ -1,5 +1,5 @@
-/* What a surface costs, from a sculpture in memory to a mesh in memory, on one core. With FILE.oct arguments these
- * are measured too. */
+/* What a surface costs, from a sculpture in memory to a mesh in memory, on one core. With FILE.oct
+ * arguments these are measured too. */
 #include "common/random.h"
 #include "surface/surface.h"
 

@@ -46,8 +46,8 @@ static void loops_pass_each_crossed_edge_once_from_face_to_face(void **state)
     for_each_case(check_cover);
 }
 
-/* The arcs of a cell on a face: successor of each edge along it, or -1. Arcs between the same two edges on another
- * face cannot be: two faces share only one edge. */
+/* The arcs of a cell on a face: successor of each edge along it, or -1. Arcs between the same two edges on
+ * another face cannot be: two faces share only one edge. */
 static void arcs_on_face(const struct cell_loops *loops, int face, int successor[CELL_EDGES])
 {
     for (int edge = 0; edge < CELL_EDGES; edge++)
@@ -60,8 +60,8 @@ static void arcs_on_face(const struct cell_loops *loops, int face, int successor
         }
 }
 
-/* The neighbour across the upper face of an axis sees that face's corners as its lower ones; whatever its other
- * corners are. */
+/* The neighbour across the upper face of an axis sees that face's corners as its lower ones; whatever its
+ * other corners are. */
 static void check_neighbours(unsigned inside, unsigned joined, const struct cell_loops *loops)
 {
     for (int axis = 0; axis < 3; axis++) {
@@ -147,12 +147,26 @@ static void a_lone_corner_is_seen_counter_clockwise_from_outside(void **state)
     assert_int_equal(loops.edge[0][2], 8);
 }
 
+static void the_middle_of_an_ambiguous_face_decides_what_belongs_together(void **state)
+{
+    (void)state;
+    struct cell_loops loops;
+    cell_table_make(&table);
+    /* Corners (0,0,0) and (1,1,0): diagonal on the lower face across z, number 4. */
+    cell_find_loops(&table, 1 | 8, 0, &loops);
+    assert_int_equal(loops.count, 2);
+    cell_find_loops(&table, 1 | 8, 1 << 4, &loops);
+    assert_int_equal(loops.count, 1);
+    assert_int_equal(loops.length[0], 6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(loops_pass_each_crossed_edge_once_from_face_to_face),
         cmocka_unit_test(neighbours_run_along_the_arcs_of_a_face_in_opposite_senses),
         cmocka_unit_test(no_triangle_has_a_side_within_a_face_other_than_an_arc),
+        cmocka_unit_test(the_middle_of_an_ambiguous_face_decides_what_belongs_together),
         cmocka_unit_test(a_lone_corner_is_seen_counter_clockwise_from_outside),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -132,8 +132,9 @@ static void the_gradient_is_that_of_central_differences_and_below_the_steepness(
                 double after = probe_value(&probe, there, unused);
                 there[axis] -= 2 * h;
                 double before = probe_value(&probe, there, unused);
-                /* The truncation is h^2/6 of the third derivative, below 1e-8 here; the kink where Gaussians end,
-                 * exp(-R^2/2)/s times a few, is 3e-4 for R = 4 at sums over hundreds of fields. */
+                /* The truncation is h^2/6 of the third derivative, below 1e-8 here; the kink where
+                 * Gaussians end, exp(-R^2/2)/s times a few, is 3e-4 for R = 4 at sums over hundreds of
+                 * fields. */
                 assert_near(gradient[axis], (after - before) / (2 * h), kinds[k].cutoff > 4 ? 2e-4 : 3e-3);
             }
             assert_true(sqrt(gradient[0] * gradient[0] + gradient[1] * gradient[1] +
@@ -163,7 +164,8 @@ static double distance_to_exact(long fields)
     return worst;
 }
 
-/* The midpoint rule is of second order: each doubling along an axis divides its error by 4, once it is small. */
+/* The midpoint rule is of second order: each doubling along an axis divides its error by 4, once it is
+ * small. */
 static void more_fields_a_cube_converge_to_the_exact_field_at_second_order(void **state)
 {
     (void)state;

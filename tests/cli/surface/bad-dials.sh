@@ -1,0 +1,21 @@
+# Dials that give no surface, with what would be right; no mesh is left behind.
+expect 0 balloon-sculpt --depth 2 -o cube.oct
+refused 1 'the largest value of the field found is 1, ' balloon-surface cube.oct --threshold 3 -o a.ply
+refused 1 'cube size of 5 is too large.* works$' balloon-surface cube.oct --cube-size 5 -o a.ply
+refused 1 'cube size of 1e-06 is too small.* works$' balloon-surface cube.oct --cube-size 1e-6 -o a.ply
+refused 1 'a cube size of .* is too small: about 2e\+09 triangles in ' balloon-surface cube.oct --triangles 2000000000 -o a.ply
+refused 1 '1e-05u: too small .*at least 0\.0025u' balloon-surface cube.oct --sigma 1e-5u -o a.ply
+for sigma in 0 -1 nan inf 1e300 '' u x 0.3x; do
+    refused 2 "sigma $sigma?.*: must be a number" balloon-surface cube.oct --sigma "$sigma" -o a.ply
+done
+for size in 0 -1 nan inf 1e300 x; do
+    refused 2 'must be a number' balloon-surface cube.oct --cube-size $size -o a.ply
+    refused 2 'must be a number' balloon-surface cube.oct --threshold $size -o a.ply
+done
+for count in 2 7 9 -1 1.5 5000 exactly; do
+    refused 2 'exact, 0, or a regular grid.*1, 8, 27, 64' balloon-surface cube.oct --fields-per-cube $count -o a.ply
+done
+refused 2 'fields-per-area must be above 0' balloon-surface cube.oct --fields-per-cube 0 -o a.ply
+refused 2 'cutoff 9: must be' balloon-surface cube.oct --cutoff 9 -o a.ply
+refused 2 'must be descent or random' balloon-surface cube.oct --seeds often -o a.ply
+only_files cube.oct

@@ -1,0 +1,17 @@
+# A full disk, a read-only folder, the sculpture itself: a message, and what was there stays.
+expect 0 balloon-sculpt --depth 2 -o cube.oct
+cp cube.oct kept.oct
+ln -s /dev/full full.ply
+refused 1 'cannot write: No space left' balloon-surface cube.oct -o full.ply
+refused 1 '/proc/a\.ply: cannot create' balloon-surface cube.oct -o /proc/a.ply
+refused 1 'no/such/a\.stl: cannot create' balloon-surface cube.oct -o no/such/a.stl
+refused 1 '/proc/a\.png: cannot create' balloon-surface cube.oct --render /proc/a.png
+ln -s cube.oct same.ply
+refused 1 'same\.ply: is the sculpture itself' balloon-surface cube.oct -o same.ply
+same_file cube.oct kept.oct
+echo old >a.ply
+refused 1 'no point reaches' balloon-surface cube.oct --threshold 3 -o a.ply
+[ "$(cat a.ply)" = old ] || fail "a.ply was touched"
+expect 1 sh -c 'balloon-surface cube.oct --info >/dev/full'
+stderr_has 'cannot write the results'
+only_files cube.oct kept.oct full.ply same.ply a.ply
