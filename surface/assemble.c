@@ -61,26 +61,6 @@ static uint32_t vertex_number(const struct assembly *a, const int at[3], int edg
     return (uint32_t)(brick->vertex_first + brick->rank[z][axis] + (size_t)__builtin_popcountll(before));
 }
 
-/* Bit f: the field in the middle of ambiguous face f is inside. Both cells of a face ask at the same place.
- * */
-static unsigned faces_joined(const struct assembly *a, const int at[3], unsigned ambiguous)
-{
-    unsigned joined = 0;
-    for (int face = 0; face < CELL_FACES; face++) {
-        if (!(ambiguous >> face & 1))
-            continue;
-        double middle[3], gradient[3];
-        for (int axis = 0; axis < 3; axis++) {
-            int line = a->brick->at[axis] * BRICK + at[axis];
-            bool across = axis == face / 2;
-            middle[axis] = across ? grid_coordinate(&a->m->grid, line + face % 2)
-                                  : (line + 1) * a->m->grid.cube;
-        }
-        joined |= (unsigned)(probe_value(&a->m->probe, middle, gradient) >= a->m->threshold) << face;
-    }
-    return joined;
-}
-
 static bool add_triangle(struct assembly *a, uint32_t p, uint32_t q, uint32_t r)
 {
     if (!ARRAY_RESERVE(&a->triangles, 1))
@@ -166,7 +146,8 @@ static bool add_brick(struct assembly *a, const struct brick *brick)
             continue;
         struct cell_loops loops;
         unsigned ambiguous = a->m->cells.ambiguous[inside];
-        cell_find_loops(&a->m->cells, inside, ambiguous ? faces_joined(a, at, ambiguous) : 0, &loops);
+        cell_find_loops(&a->m->cells, inside, ambiguous ? faces_joined(a->m, brick, at, ambiguous) : 0,
+                        &loops);
         for (int i = 0; i < loops.count; i++)
             if (!add_loop(a, at, inside, loops.edge[i], loops.length[i]))
                 return false;

@@ -36,7 +36,7 @@ struct cell_table {
     uint8_t ends[CELL_EDGES][2]; /* its corners, the lower first */
     uint8_t crossed[256];        /* by mask of inside corners: bit f, the surface passes through face f */
     uint8_t ambiguous[256];      /* bit f: all four edges of face f are crossed */
-    uint8_t triangles[256];      /* how many there are while no ambiguous face is joined */
+    uint8_t triangles[256];      /* how many there are, where no face is ambiguous */
 };
 
 void cell_table_make(struct cell_table *table);

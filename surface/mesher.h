@@ -73,7 +73,7 @@ struct mesher {
     double values[BRICK_CORNERS * BRICK_CORNERS * BRICK_CORNERS];
     struct moved_corner moved[BRICK_CORNERS * BRICK_CORNERS * BRICK_CORNERS];
     uint64_t samples;
-    size_t follows, triangles; /* triangles: about; ambiguous faces count as not joined */
+    size_t follows, triangles; /* triangles: counted while count_only */
     double worst_residual;
     size_t vertices_expected; /* for progress */
     void (*progress)(void *context, double done);
@@ -97,6 +97,10 @@ void bricks_sort(struct mesher *m);
 
 /* Bit c: corner c of that cell of the brick is inside. */
 unsigned cell_inside(const struct brick *brick, int x, int y, int z);
+
+/* Bit f: the field in the middle of ambiguous face f of that cell of the brick is inside. Both cells of a face
+ * ask at the same place. */
+unsigned faces_joined(struct mesher *m, const struct brick *brick, const int at[3], unsigned ambiguous);
 
 /* Finds the vertices of a brick whose values are in m->values. */
 void brick_find_vertices(struct mesher *m, struct brick *brick);

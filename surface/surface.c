@@ -107,7 +107,7 @@ static enum status choose_cube(const struct making *making, double *cube, struct
     double wanted = making->options->triangles, low = 0, high = INFINITY, best = INFINITY;
     double size = sqrt(2 * expected_points(making, 1) / wanted);
     *cube = size;
-    for (int turn = 0; turn < 24 && best > 0.01; turn++) {
+    for (int turn = 0; turn < 24 && best > 0.02; turn++) {
         size_t count = 0;
         if (count_triangles(making, size, &count, err))
             return err->status;
