@@ -108,7 +108,7 @@ static enum status list_length(struct ply_body *body, const struct ply_property 
 
 static enum status skip_list(struct ply_body *body, const struct ply_property *property, struct error *err)
 {
-    size_t length;
+    size_t length = 0;
     double ignored;
     enum status status = list_length(body, property, &length, err);
     if (!status && body->header.format != PLY_ASCII) {
@@ -123,7 +123,7 @@ static enum status skip_list(struct ply_body *body, const struct ply_property *p
 /* A face's corners a, b, c, d ... become the triangles abc, acd ... */
 static enum status read_corners(struct ply_body *body, const struct ply_property *property, struct error *err)
 {
-    size_t length;
+    size_t length = 0;
     uint32_t corner[3]; /* the first, the one before, this one */
     double value;
     enum status status = list_length(body, property, &length, err);

@@ -46,7 +46,8 @@ same_file() { cmp -s "$1" "$2" || fail "$1 and $2 differ"; }
 only_files()
 {
     for found in *; do
-        case " $* " in *" $found "*) ;; *) [ -e "$found" ] && fail "$found was left behind" ;; esac
+        case " $* " in *" $found "*) continue ;; esac
+        [ ! -e "$found" ] || fail "$found was left behind"
     done
 }
 
