@@ -50,10 +50,9 @@ struct geometry {
     struct {
         float *items;
         size_t count, capacity;
-    } sums;                 /* of opacity, shininess, triangles for each point of a skin */
-    double low[2], high[2]; /* x and y at distance 1 between which every corner appears */
-    double nearest,
-        farthest; /* distances before the camera that hold every triangle in sight, and the shadow */
+    } sums;                   /* of opacity, shininess, triangles for each point of a skin */
+    double low[2], high[2];   /* x and y at distance 1 between which every corner appears */
+    double nearest, farthest; /* distances that hold every triangle in sight, and the shadow */
     struct geometry_shadow shadow;
 };
 

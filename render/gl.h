@@ -53,7 +53,6 @@
     X(RenderbufferStorageMultisample, RENDERBUFFERSTORAGEMULTISAMPLE) \
     X(Scissor, SCISSOR)                                               \
     X(ShaderSource, SHADERSOURCE)                                     \
-    X(Uniform1f, UNIFORM1F)                                           \
     X(Uniform3fv, UNIFORM3FV)                                         \
     X(UniformMatrix4fv, UNIFORMMATRIX4FV)                             \
     X(UseProgram, USEPROGRAM)                                         \
