@@ -7,11 +7,13 @@ static void symplectic_euler(struct sim *sim)
 {
     sim_forces(sim);
     const double dt = sim->step;
-    for (uint32_t p = 0; p < sim->point_count; p++)
+    for (uint32_t p = 0; p < sim->point_count; p++) {
+        const double kick = dt / sim->mass[p];
         for (int i = 0; i < 3; i++) {
-            sim->velocity[p][i] += sim->force[p][i] / sim->mass[p] * dt;
+            sim->velocity[p][i] += sim->force[p][i] * kick;
             sim->position[p][i] += sim->velocity[p][i] * dt;
         }
+    }
 }
 
 /* x += v dt, then v += a dt with the acceleration at the old place: the textbook's Euler. */
@@ -19,11 +21,13 @@ static void explicit_euler(struct sim *sim)
 {
     sim_forces(sim);
     const double dt = sim->step;
-    for (uint32_t p = 0; p < sim->point_count; p++)
+    for (uint32_t p = 0; p < sim->point_count; p++) {
+        const double kick = dt / sim->mass[p];
         for (int i = 0; i < 3; i++) {
             sim->position[p][i] += sim->velocity[p][i] * dt;
-            sim->velocity[p][i] += sim->force[p][i] / sim->mass[p] * dt;
+            sim->velocity[p][i] += sim->force[p][i] * kick;
         }
+    }
 }
 
 static const struct integrator symplectic = {"symplectic-euler", 1, symplectic_euler,

@@ -118,15 +118,15 @@ static void change_by_schedule(struct sim *sim)
         sim_change(sim, &scene->schedule[sim->next_change++]);
 }
 
-/* The first point whose place or speed is no number any more ends the run. 0 x is NaN for those and no others, so that
- * one sum asks them all. */
+/* The first point whose place or speed is no number any more ends the run. 0 times that is NaN, and 0 for any
+ * other, so that one sum asks them all. */
 static enum status check_finite(const struct sim *sim, struct error *err)
 {
-    double sum = 0;
+    double sum[3] = {0};
     for (uint32_t p = 0; p < sim->point_count; p++)
         for (int i = 0; i < 3; i++)
-            sum += 0 * sim->position[p][i] + 0 * sim->velocity[p][i];
-    return sum == 0 ? STATUS_OK : sim_diverged(sim, err);
+            sum[i] += 0 * sim->position[p][i] + 0 * sim->velocity[p][i];
+    return sum[0] + sum[1] + sum[2] == 0 ? STATUS_OK : sim_diverged(sim, err);
 }
 
 enum status sim_step(struct sim *sim, struct error *err)
