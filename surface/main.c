@@ -238,10 +238,13 @@ static enum status report(struct mesh *mesh, const struct arguments *arguments,
             return err->status;
         print_info(mesh, stats, &shape, arguments->options.seeds);
     }
-    if (stats->cube_size > finest_cell)
-        command_note("cubes of %.4g are larger than the finest cell, %.4g: what is thinner may be lost; "
-                     "take more triangles, or smooth it: --sigma 1.2 --threshold 0.2",
-                     stats->cube_size, finest_cell);
+    const double detail = finest_cell *
+                          fmax(1, 2 * arguments->options.field.sigma); /* the field has no finer */
+    if (stats->cube_size > detail)
+        command_note(
+            "cubes of %.4g are larger than the sculpture's detail, %.4g: what is thinner may be lost; "
+            "take more triangles, or smooth it: --sigma 1.2 --threshold 0.2",
+            stats->cube_size, detail);
     double wanted = arguments->options.triangles;
     if (wanted > 0 && fabs(mesh->triangle_count / wanted - 1) > 0.05)
         command_note("%u triangles: at no cube size tried were there %.0f; their number goes in steps",
