@@ -81,6 +81,11 @@ enum status render_draw(struct render *render, const struct render_view *view,
 /* NULL is fine. */
 void render_close(struct render *render);
 
+/* All of the above for one still: the skin stands on the floor and fills a picture, which is saved as the PNG file `path` with the
+ * program's name in it. Errors: those of render_open(), render_draw() and image_save_png(), with the path in front. */
+enum status render_still(const struct render_skin *skin, const char *path, const char *software,
+                         struct error *err);
+
 /* Sets view->camera so that the box lower .. upper fits the picture (view's width, height and stereo are
  * read) with `margin`, a fraction of the half picture, left free around it: 0 for none, below 1. `direction`
  * points from the box to the eye and has any length; y is up unless direction is along it. In stereo the

@@ -11,8 +11,6 @@
 
 enum {
     DEPTH_DEFAULT = 6,
-    PICTURE_WIDTH = 1024,
-    PICTURE_HEIGHT = 768,
 };
 
 enum option_key {
@@ -212,49 +210,12 @@ static enum status make(const struct options *options, struct octree *tree, stru
     return status;
 }
 
-static void find_bounds(const struct mesh *mesh, double low[3], double high[3])
-{
-    for (int k = 0; k < 3; k++)
-        low[k] = high[k] = mesh->position[0][k];
-    for (uint32_t i = 1; i < mesh->point_count; i++)
-        for (int k = 0; k < 3; k++) {
-            low[k] = mesh->position[i][k] < low[k] ? mesh->position[i][k] : low[k];
-            high[k] = mesh->position[i][k] > high[k] ? mesh->position[i][k] : high[k];
-        }
-}
-
-static enum status draw_mesh(const struct mesh *mesh, struct image *image, struct error *err)
-{
-    static const double from[3] = {0.55, 0.45, 1}; /* a little from the right and above */
-    struct render_view view = {.width = PICTURE_WIDTH, .height = PICTURE_HEIGHT, .smooth_edges = true};
-    const struct render_skin skin = {.mesh = mesh, .colour = {0.62f, 0.42f, 0.26f}, .facets = true};
-    struct render *render = NULL;
-    double low[3], high[3];
-    find_bounds(mesh, low, high);
-    view.floor = true;
-    view.floor_height = low[1];
-    enum status status = render_fit_camera(&view, low, high, from, 0.1, err);
-    if (!status)
-        status = render_open(view.width, view.height, &render, err);
-    if (!status)
-        status = render_draw(render, &view, &skin, 1, image, err);
-    render_close(render);
-    return status;
-}
-
 static enum status draw(const struct octree *tree, const char *path, struct error *err)
 {
     struct mesh mesh = {0};
-    struct image image = {0};
-    const struct image_text text = {"Software", "balloon-sculpt"};
+    const struct render_skin skin = {.mesh = &mesh, .colour = {0.62f, 0.42f, 0.26f}, .facets = true};
     enum status status = sculpt_faces(tree, &mesh, err);
-    if (!status)
-        status = draw_mesh(&mesh, &image, err);
-    if (status)
-        error_prefix(err, path);
-    else
-        status = image_save_png(&image, path, &text, 1, err);
-    image_clear(&image);
+    status = status ? error_prefix(err, path) : render_still(&skin, path, "balloon-sculpt", err);
     mesh_clear(&mesh);
     return status;
 }

@@ -151,8 +151,9 @@ static void print_check(const struct sim *sim)
             printf("balloons[%zu]: steps up to %.4g are surely stable; time.step is %g\n", i, stable,
                    sim->step);
     }
-    printf("%s: good: %zu bytes, %.0f steps of %s\n", sim->scene->path, sim->bytes,
-           sim->scene->time.end / sim->step, sim->integrator->name);
+    const struct integrator *method = sim->integrator;
+    printf("%s: good: %zu bytes, %.0f steps of %s (order %d; %s)\n", sim->scene->path, sim->bytes,
+           sim->scene->time.end / sim->step, method->name, method->order, method->source);
 }
 
 static void print_effects(const struct scene *scene)
@@ -187,11 +188,8 @@ static enum status show_state(struct outputs *outputs, struct sim *sim, struct e
     return outputs->film ? film_frame(outputs->film, err) : STATUS_OK;
 }
 
-struct summary {
-    double first_break; /* s; below 0: none */
-};
-
-static enum status run(struct sim *sim, struct outputs *outputs, struct summary *summary, struct error *err)
+/* Steps to the end. *first_break becomes the time at which the first edge broke; it stays as it was when none did. */
+static enum status run(struct sim *sim, struct outputs *outputs, double *first_break, struct error *err)
 {
     const double end = sim->scene->time.end;
     enum status status = show_state(outputs, sim, err);
@@ -201,8 +199,8 @@ static enum status run(struct sim *sim, struct outputs *outputs, struct summary 
         status = sim_step(sim, err);
         if (!status)
             status = show_state(outputs, sim, err);
-        if (sim->broken && summary->first_break < 0)
-            summary->first_break = sim->time;
+        if (sim->broken && *first_break < 0)
+            *first_break = sim->time;
         progress_update(sim->time / end * steps);
     }
     progress_end();
@@ -257,31 +255,31 @@ static enum status save_skin(const struct sim *sim, const char *path, struct err
     return status;
 }
 
-static void print_summary(struct sim *sim, const struct summary *summary)
+static void print_summary(struct sim *sim, double first_break)
 {
     const struct sim_measures m = sim_measure(sim);
     printf("%g s in %" PRIu64 " steps: %u of %u edges and %u of %u triangles are left, in %u pieces; ",
            sim->time, sim->steps, m.edges_active, sim->edge_count, m.triangles_active, sim->triangle_count,
            m.pieces);
-    if (summary->first_break < 0)
+    if (first_break < 0)
         printf("nothing broke\n");
     else
-        printf("the first edge broke at %g s\n", summary->first_break);
+        printf("the first edge broke at %g s\n", first_break);
 }
 
 static enum status simulate(const struct options *options, struct sim *sim, struct error *err)
 {
     struct outputs outputs = {0};
-    struct summary summary = {-1};
+    double first_break = -1;
     enum status status = open_outputs(&outputs, options, sim, err);
     if (!status)
-        status = run(sim, &outputs, &summary, err);
+        status = run(sim, &outputs, &first_break, err);
     status = close_outputs(&outputs, status, err);
     if (!status && options->mesh)
         status = save_skin(sim, options->mesh, err);
     if (status)
         return status;
-    print_summary(sim, &summary);
+    print_summary(sim, first_break);
     if (options->hash)
         printf("%016" PRIx64 "\n", sim_hash(sim));
     return STATUS_OK;

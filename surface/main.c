@@ -200,38 +200,14 @@ static void print_info(const struct mesh *mesh, const struct surface_stats *stat
         printf("seeds            %zu parts found by descent\n", stats->seeds);
 }
 
-static enum status draw(const struct mesh *mesh, const char *path, struct error *err)
-{
-    struct render_view view = {.width = 960, .height = 720, .sorted = true, .smooth_edges = true};
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
-    const double from[3] = {0.45, 0.35, 1};
-    for (uint32_t i = 0; i < mesh->point_count; i++)
-        for (int axis = 0; axis < 3; axis++) {
-            low[axis] = fmin(low[axis], mesh->position[i][axis]);
-            high[axis] = fmax(high[axis], mesh->position[i][axis]);
-        }
-    struct render_skin skin = {.mesh = mesh, .colour = {0.75f, 0.03f, 0.04f}};
-    struct render *render = NULL;
-    struct image image = {0};
-    enum status status = render_fit_camera(&view, low, high, from, 0.1, err);
-    if (status == STATUS_OK)
-        status = render_open(view.width, view.height, &render, err);
-    if (status == STATUS_OK)
-        status = render_draw(render, &view, &skin, 1, &image, err);
-    if (status == STATUS_OK)
-        status = image_save_png(&image, path, NULL, 0, err);
-    image_clear(&image);
-    render_close(render);
-    return status;
-}
-
 static enum status report(struct mesh *mesh, const struct arguments *arguments,
                           const struct surface_stats *stats, double finest_cell, struct error *err)
 {
     struct surface_shape shape;
     if (arguments->output && mesh_save(mesh, arguments->output, err))
         return err->status;
-    if (arguments->render && draw(mesh, arguments->render, err))
+    const struct render_skin skin = {.mesh = mesh, .colour = {0.75f, 0.03f, 0.04f}};
+    if (arguments->render && render_still(&skin, arguments->render, "balloon-surface", err))
         return err->status;
     if (arguments->info) {
         if (mesh_connect(mesh, err) || surface_measure(mesh, &shape, err))

@@ -1,25 +1,17 @@
 /* The whole program: balloon-sim on the paper's sphere, by what it is asked to write. The paper's machine took about
  * one second a frame: 400 s. bench_burst BALLOON-SIM SCENE */
+#include "support/bench.h"
+
 #include <fcntl.h>
 #include <ftw.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 static int remove_entry(const char *path, const struct stat *info, int type, struct FTW *where)
 {
     (void)info, (void)type, (void)where;
     return remove(path);
-}
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 /* Runs the program with these arguments in a folder of its own; one row of the table. */
@@ -30,7 +22,7 @@ static void run(const char *name, char *const *arguments)
         exit(1);
     struct rusage usage;
     int status = 0;
-    const double began = seconds();
+    const double began = bench_seconds();
     pid_t child = fork();
     if (child == 0) {
         int nowhere = open("/dev/null", O_WRONLY);
@@ -40,7 +32,7 @@ static void run(const char *name, char *const *arguments)
     }
     if (child < 0 || wait4(child, &status, 0, &usage) != child)
         exit(1);
-    const double spent = seconds() - began;
+    const double spent = bench_seconds() - began;
     const double cpu = (double)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
                        1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
     printf("%-40s  %4d  %7.2f  %7.2f  %9.1f  %6.1f\n", name, WEXITSTATUS(status), spent, cpu,

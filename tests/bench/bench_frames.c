@@ -2,7 +2,8 @@
 #include "render/frames.h"
 #include "render/render.h"
 
-#include "../unit/sphere.h"
+#include "support/bench.h"
+#include "unit/sphere.h"
 
 #include <ftw.h>
 #include <stdio.h>
@@ -18,21 +19,6 @@ struct scene {
     struct render *render;
     struct image image;
 };
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static void check(enum status status, const struct error *err)
-{
-    if (!status)
-        return;
-    fprintf(stderr, "bench_frames: %s\n", err->text);
-    exit(status_exit_code(status));
-}
 
 /* Frame i of the run: the sphere swells, its skin thins from opaque to 0.4 and begins to shine. */
 static void draw(struct scene *scene, int i)
@@ -50,7 +36,7 @@ static void draw(struct scene *scene, int i)
                                .opacity = scene->opacity,
                                .shininess = scene->shininess,
                                .colour = {0.7f, 0.035f, 0.04f}};
-    check(render_draw(scene->render, &scene->view, &skin, 1, &scene->image, &err), &err);
+    bench_check(render_draw(scene->render, &scene->view, &skin, 1, &scene->image, &err), &err);
 }
 
 static void open_scene(struct scene *scene)
@@ -66,8 +52,8 @@ static void open_scene(struct scene *scene)
                                        .sorted = true,
                                        .floor = true,
                                        .floor_height = -1};
-    check(render_fit_camera(&scene->view, lower, upper, from, 0.1, &err), &err);
-    check(render_open(1280, 480, &scene->render, &err), &err);
+    bench_check(render_fit_camera(&scene->view, lower, upper, from, 0.1, &err), &err);
+    bench_check(render_open(1280, 480, &scene->render, &err), &err);
 }
 
 static void close_scene(struct scene *scene)
@@ -81,10 +67,10 @@ static void close_scene(struct scene *scene)
 
 static double draw_ms(struct scene *scene)
 {
-    double start = seconds();
+    double start = bench_seconds();
     for (int i = 0; i < SAMPLES; i++)
         draw(scene, i * FRAMES / SAMPLES);
-    return (seconds() - start) / SAMPLES * 1e3;
+    return (bench_seconds() - start) / SAMPLES * 1e3;
 }
 
 static double encode_ms(struct scene *scene)
@@ -93,9 +79,9 @@ static double encode_ms(struct scene *scene)
     double spent = 0;
     for (int i = 0; i < SAMPLES; i++) {
         draw(scene, i * FRAMES / SAMPLES);
-        double start = seconds();
-        check(image_save_png(&scene->image, "one.png", NULL, 0, &err), &err);
-        spent += seconds() - start;
+        double start = bench_seconds();
+        bench_check(image_save_png(&scene->image, "one.png", NULL, 0, &err), &err);
+        spent += bench_seconds() - start;
     }
     return spent / SAMPLES * 1e3;
 }
@@ -105,14 +91,14 @@ static void measure(struct scene *scene, const char *name, bool smooth, struct f
     struct error err;
     struct frames *frames;
     scene->view.smooth_edges = smooth;
-    double drawing = draw_ms(scene), encoding = encode_ms(scene), start = seconds();
-    check(frames_open(&options, &frames, &err), &err);
+    double drawing = draw_ms(scene), encoding = encode_ms(scene), start = bench_seconds();
+    bench_check(frames_open(&options, &frames, &err), &err);
     for (int i = 0; i < FRAMES; i++) {
         draw(scene, i);
-        check(frames_add(frames, &scene->image, i / 30.0, &err), &err);
+        bench_check(frames_add(frames, &scene->image, i / 30.0, &err), &err);
     }
-    check(frames_close(frames, &err), &err);
-    printf("%s\t%.2f\t%.2f\t%.2f\n", name, drawing, encoding, seconds() - start);
+    bench_check(frames_close(frames, &err), &err);
+    printf("%s\t%.2f\t%.2f\t%.2f\n", name, drawing, encoding, bench_seconds() - start);
     fflush(stdout);
 }
 

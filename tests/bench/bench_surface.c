@@ -1,28 +1,13 @@
 /* What a surface costs, from a sculpture in memory to a mesh in memory, on one core. With FILE.oct
  * arguments these are measured too. */
 #include "common/random.h"
+#include "support/bench.h"
 #include "surface/surface.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { BALLS = 20 };
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-static void fail(const struct error *err)
-{
-    fprintf(stderr, "bench_surface: %s\n", err->text);
-    exit(1);
-}
 
 static bool in_a_ball(const double centre[BALLS][3], double x, double y, double z)
 {
@@ -40,29 +25,26 @@ static void make_balls(struct octree *tree, unsigned depth)
     int side = 1 << depth;
     for (int i = 0; i < 3 * BALLS; i++)
         centre[i / 3][i % 3] = 0.2 + 0.6 * random_unit(&seed);
-    if (octree_init(tree, depth, 0, &err))
-        fail(&err);
+    bench_check(octree_init(tree, depth, 0, &err), &err);
     for (int x = 0; x < side; x++)
         for (int y = 0; y < side; y++)
             for (int z = 0; z < side; z++)
-                if (in_a_ball(centre, (x + 0.5) / side, (y + 0.5) / side, (z + 0.5) / side) &&
-                    octree_set(tree, x, y, z, 1, &err))
-                    fail(&err);
+                if (in_a_ball(centre, (x + 0.5) / side, (y + 0.5) / side, (z + 0.5) / side))
+                    bench_check(octree_set(tree, x, y, z, 1, &err), &err);
 }
 
 /* Repeats until a tenth of a second is spent and takes the best. */
 static void measure(const char *name, const struct octree *tree, const struct surface_options *options)
 {
-    double best = 1e300, begun = now();
+    double best = 1e300, begun = bench_seconds();
     uint32_t triangles = 0;
     struct surface_stats stats;
-    for (int turn = 0; turn < 3 || now() - begun < 0.1; turn++) {
+    for (int turn = 0; turn < 3 || bench_seconds() - begun < 0.1; turn++) {
         struct mesh mesh = {0};
         struct error err = {0};
-        double start = now();
-        if (surface_make(tree, options, &mesh, &stats, &err))
-            fail(&err);
-        double seconds = now() - start;
+        double start = bench_seconds();
+        bench_check(surface_make(tree, options, &mesh, &stats, &err), &err);
+        double seconds = bench_seconds() - start;
         best = seconds < best ? seconds : best;
         triangles = mesh.triangle_count;
         mesh_clear(&mesh);
@@ -114,8 +96,7 @@ int main(int argc, char **argv)
     printf("%-24s %10s %10s %9s %8s %8s %8s %8s\n", "sculpture", "cube", "triangles", "seconds", "Mtri/s",
            "points", "grid", "bytes");
     printf("%63s %8s %8s %8s\n", "", "evals/t", "evals/t", "a t");
-    if (octree_init(&tree, 0, 1, &err))
-        fail(&err);
+    bench_check(octree_init(&tree, 0, 1, &err), &err);
     measure_sizes("a lone cube", &tree);
     octree_clear(&tree);
     make_balls(&tree, 6);
@@ -123,8 +104,7 @@ int main(int argc, char **argv)
     measure_dials(&tree);
     octree_clear(&tree);
     for (int i = 1; i < argc; i++) {
-        if (octree_load(argv[i], &tree, &err))
-            fail(&err);
+        bench_check(octree_load(argv[i], &tree, &err), &err);
         measure_sizes(strrchr(argv[i], '/') ? strrchr(argv[i], '/') + 1 : argv[i], &tree);
         octree_clear(&tree);
     }
