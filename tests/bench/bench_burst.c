@@ -39,18 +39,22 @@ static void run(const char *name, char *const *arguments)
            (double)usage.ru_maxrss / 1024, 400 / spent);
     fflush(stdout);
     nftw(folder, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        exit(1);
 }
 
 int main(int argc, char **argv)
 {
-    if (argc != 3)
+    char *program = argc == 3 ? realpath(argv[1], NULL) : NULL;
+    if (!program)
         return 2;
     printf("400 stereo frames of 1280 x 480            exit     wall      cpu    peak MB  frames/s\n");
-    run("simulated", (char *[]){argv[1], "-q", argv[2], NULL});
-    run("simulated, log", (char *[]){argv[1], "-q", argv[2], "--log", "log.tsv", NULL});
-    run("simulated, drawn, PNGs", (char *[]){argv[1], "-q", argv[2], "--frames", "frames", NULL});
+    run("simulated", (char *[]){program, "-q", argv[2], NULL});
+    run("simulated, log", (char *[]){program, "-q", argv[2], "--log", "log.tsv", NULL});
+    run("simulated, drawn, PNGs", (char *[]){program, "-q", argv[2], "--frames", "frames", NULL});
     run("simulated, drawn, PNGs, movie and sheet",
-        (char *[]){argv[1], "-q", argv[2], "--frames", "frames", "--movie", "burst.mp4", "--contact-sheet",
+        (char *[]){program, "-q", argv[2], "--frames", "frames", "--movie", "burst.mp4", "--contact-sheet",
                    "sheet.png", NULL});
+    free(program);
     return 0;
 }
