@@ -1,0 +1,25 @@
+/* The balloons of a simulation as render sees them: the program layer's bridge between the two modules. */
+#ifndef SIM_SKINS_H
+#define SIM_SKINS_H
+
+#include "render/render.h"
+#include "sim/sim.h"
+
+struct skins {
+    struct sim *sim;
+    struct mesh *meshes;        /* [sim->balloon_count] look into the sim's arrays: not to be cleared */
+    struct render_skin *skins;  /* [sim->balloon_count] what render_draw() takes */
+    float *opacity, *shininess; /* [sim->triangle_count] */
+};
+
+/* `sim` is borrowed. Errors: STATUS_NO_MEMORY; then *skins is empty. */
+enum status skins_init(struct skins *skins, struct sim *sim, struct error *err);
+void skins_clear(struct skins *skins);
+
+/* Normals, opacity and shininess of the state as it is: before each picture. */
+void skins_update(struct skins *skins);
+
+/* The ball around all points as they are; returns its radius. */
+double skins_ball(const struct sim *sim, double centre[3]);
+
+#endif
