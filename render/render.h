@@ -1,5 +1,6 @@
 /*
- * Draws meshes as balloon skin, in one picture or as a stereo pair, without a display.
+ * Draws meshes as balloon skin, and sculptures of cubes, in one picture or as a stereo pair, without a display
+ * or in a window.
  *
  *     struct render_view view = {.width = 1280, .height = 480, .stereo = RENDER_PARALLEL, .sorted = true};
  *     const double from[3] = {0.4, 0.3, 1};
@@ -61,6 +62,23 @@ struct render_skin {
                                     they are averaged at the points and drawn smoothly */
 };
 
+struct render_solid; /* solid.h */
+struct render_line;  /* overlay.h */
+struct render_text;
+struct window; /* window.h */
+
+/* All that a picture shows. Everything is borrowed for the call; `{0}` is an empty picture. */
+struct render_scene {
+    const struct render_skin *skins;
+    size_t skin_count;
+    const struct render_solid *solid; /* made with the same struct render; or NULL */
+    bool cell_edges;                  /* the solid's cells have darker edges */
+    const struct render_line *lines;
+    size_t line_count;
+    const struct render_text *texts;
+    size_t text_count;
+};
+
 struct render;
 
 /* Opens the off-screen OpenGL context and makes room for pictures of this size; others are possible later.
@@ -77,6 +95,19 @@ enum status render_open(int width, int height, struct render **render, struct er
 enum status render_draw(struct render *render, const struct render_view *view,
                         const struct render_skin *skins, size_t skin_count, struct image *out,
                         struct error *err);
+
+/* The same with all that a scene holds. Lines with an end at no finite place are refused by their number. */
+enum status render_draw_scene(struct render *render, const struct render_view *view,
+                              const struct render_scene *scene, struct image *out, struct error *err);
+
+/* Draws in the window's own context, which it keeps until render_close(). Pictures for images can be drawn as
+ * well. Errors: STATUS_RESOURCE, STATUS_NO_MEMORY. */
+enum status render_open_window(struct window *window, struct render **render, struct error *err);
+
+/* Draws the scene into the window that `render` was opened in, pixel for pixel as render_draw_scene() would;
+ * the view should have the window's size. Called from the window's draw(). Errors as render_draw_scene(). */
+enum status render_show(struct render *render, const struct render_view *view,
+                        const struct render_scene *scene, struct error *err);
 
 /* NULL is fine. */
 void render_close(struct render *render);

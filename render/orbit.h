@@ -1,0 +1,52 @@
+/*
+ * A camera led by the hand: it looks at a target from a distance and turns around it, y always up. No OpenGL.
+ *
+ *     struct orbit orbit = orbit_start();
+ *     orbit_frame(&orbit, &view, lower, upper);
+ *     orbit_turn(&orbit, dx, dy);                       while a button is held
+ *     orbit_camera(&orbit, &view.camera);               before drawing
+ *     orbit_ray(&view, x + 0.5, y + 0.5, origin, direction);
+ */
+#ifndef RENDER_ORBIT_H
+#define RENDER_ORBIT_H
+
+#include "render/render.h"
+
+struct orbit {
+    double target[3], distance; /* what it looks at, and from how far */
+    double azimuth_deg,
+        elevation_deg;        /* of the eye: 0, 0 on the target's +z side; 90, 0 on +x; any, 90 above */
+    double field_of_view_deg; /* vertical */
+};
+
+enum orbit_side { ORBIT_FRONT, ORBIT_BACK, ORBIT_RIGHT, ORBIT_LEFT, ORBIT_TOP, ORBIT_BOTTOM };
+
+/* From the front, a little from the right and above, at the unit cube. */
+struct orbit orbit_start(void);
+
+/* The pointer was dragged by dx to the right and dy down: the object turns with it, half a degree a pixel. */
+void orbit_turn(struct orbit *orbit, double dx, double dy);
+
+/* The same, moving: the point of the target plane under the pointer stays under it. */
+void orbit_pan(struct orbit *orbit, const struct render_view *view, double dx, double dy);
+
+/* Nearer by a tenth a step; negative: further. */
+void orbit_zoom(struct orbit *orbit, double steps);
+
+/* From a standard side, at the same target and distance. */
+void orbit_look(struct orbit *orbit, enum orbit_side side);
+
+/* Takes the box lower .. upper into the middle of the picture, as large as fits from any side: its enclosing
+ * ball touches the picture's nearer borders. An empty or infinite box changes nothing. */
+void orbit_frame(struct orbit *orbit, const struct render_view *view, const double lower[3],
+                 const double upper[3]);
+
+/* The camera; stereo: the eyes are 1/30 of the distance apart, the screen plane goes through the target. */
+void orbit_camera(const struct orbit *orbit, struct render_camera *camera);
+
+/* The ray from the eye through a place of the picture, in pixels from its upper left corner (the middle of the
+ * first pixel is 0.5, 0.5); in stereo from the eye whose half it is. `direction` gets unit length. False where
+ * the view's size or camera makes no picture. */
+bool orbit_ray(const struct render_view *view, double x, double y, double origin[3], double direction[3]);
+
+#endif

@@ -1,0 +1,29 @@
+/* What lies over a picture: lines in space, and lines of text on the glass. See struct render_scene. */
+#ifndef RENDER_OVERLAY_H
+#define RENDER_OVERLAY_H
+
+#include <stdbool.h>
+
+/* A straight line in space, as wide everywhere. */
+struct render_line {
+    double from[3], to[3];
+    float colour[3]; /* linear light, 0 .. 1 */
+    float opacity;   /* 0 .. 1 */
+    float width;     /* pixels, 0.5 or more */
+    bool on_top;     /* seen through everything; else hidden by what lies before it */
+};
+
+/* Text in ASCII; '\n' begins a new line; what is not printable shows as a box. In stereo each eye's picture
+ * carries it at the same place. */
+struct render_text {
+    const char *text;
+    int x, y;        /* upper left corner (of the box, if any), from that of one eye's picture, in pixels */
+    int scale;       /* 1: letters 7 pixels high; 2: 14; ... */
+    float colour[3]; /* linear light, 0 .. 1 */
+    bool boxed;      /* a dim box behind it keeps it readable on any picture */
+};
+
+/* How much room it takes, in pixels. */
+void render_text_size(const struct render_text *text, int *width, int *height);
+
+#endif
