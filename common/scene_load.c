@@ -41,14 +41,10 @@ static enum status set_scene_defaults(struct scene *scene, struct error *err)
 
 static enum status add_balloon(struct scene *scene, struct error *err)
 {
-    struct {
-        struct scene_balloon *items;
-        size_t count, capacity;
-    } list = {scene->balloons, scene->balloon_count, scene->balloon_capacity};
-    if (!ARRAY_RESERVE(&list, 1))
+    if (scene->balloon_count == scene->balloon_capacity &&
+        !array_grow(&scene->balloons, scene->balloon_count, 1, sizeof *scene->balloons,
+                    &scene->balloon_capacity))
         return error_no_memory(err, "the balloons");
-    scene->balloons = list.items;
-    scene->balloon_capacity = list.capacity;
     struct scene_balloon *balloon = &scene->balloons[scene->balloon_count++];
     *balloon = (struct scene_balloon){0};
     enum status status = set_defaults(scene_find_block("", "balloons"), balloon, err);
@@ -60,14 +56,10 @@ static enum status add_balloon(struct scene *scene, struct error *err)
 
 static enum status add_schedule(struct scene *scene, struct error *err)
 {
-    struct {
-        struct scene_schedule *items;
-        size_t count, capacity;
-    } list = {scene->schedule, scene->schedule_count, scene->schedule_capacity};
-    if (!ARRAY_RESERVE(&list, 1))
+    if (scene->schedule_count == scene->schedule_capacity &&
+        !array_grow(&scene->schedule, scene->schedule_count, 1, sizeof *scene->schedule,
+                    &scene->schedule_capacity))
         return error_no_memory(err, "the schedule");
-    scene->schedule = list.items;
-    scene->schedule_capacity = list.capacity;
     struct scene_schedule *entry = &scene->schedule[scene->schedule_count++];
     *entry = (struct scene_schedule){0};
     return set_defaults(scene_find_block("", "schedule"), entry, err);
