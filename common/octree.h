@@ -37,6 +37,8 @@ enum {
 typedef uint32_t octree_node;
 #define OCTREE_SPLIT 0x80000000u
 
+struct octree_tape; /* see common/octree_tape.h */
+
 struct octree {
     octree_node root;
     unsigned depth; /* 0 .. OCTREE_DEPTH_MAX */
@@ -47,12 +49,14 @@ struct octree {
         free_count; /* first of the list of freed blocks (linked through child 0), its length */
     float coefficient[OCTREE_MATERIALS]; /* b_k of the field of each material; 1 unless a sculpture says
                                             otherwise */
+    struct octree_tape *tape;            /* where changes are recorded, or NULL; it is not the octree's */
 };
 
 /* A cube of one material. Errors: STATUS_RANGE for a depth above OCTREE_DEPTH_MAX. */
 enum status octree_init(struct octree *tree, unsigned depth, unsigned material, struct error *err);
 void octree_clear(struct octree *tree);
-/* *to must be valid ({0} is); it is replaced, or left as it was when memory is not enough. */
+/* *to must be valid ({0} is); it is replaced, or left as it was when memory is not enough. A copy has no tape.
+ */
 enum status octree_copy(struct octree *to, const struct octree *from, struct error *err);
 
 /* All leaves, empty ones too: each split turns one leaf into eight. */
@@ -90,6 +94,24 @@ enum status octree_set(struct octree *tree, int x, int y, int z, unsigned materi
 /* Fills what is empty and cannot be reached from outside, going from cell to cell across faces; *cells is how many
  * cells that were. (Material 0 fills nothing: it only counts.) Errors: STATUS_NO_MEMORY, with the tree as it was. */
 enum status octree_fill_hollows(struct octree *tree, unsigned material, uint64_t *cells, struct error *err);
+
+/* Where a ray meets the sculpture: the first cell on its way that is not empty, of the finest, and its material; the
+ * axis that the face it enters by is square to (0 x, 1 y, 2 z), and the way out of the cell along that axis (-1 or 1);
+ * the distance to that face in lengths of `direction`. Where the ray begins in material, outward and distance are 0.
+ */
+struct octree_hit {
+    int cell[3];
+    int axis, outward;
+    double distance;
+    unsigned material;
+};
+
+/* The first cell that is not empty along the ray origin + t direction, t >= 0, in units of the octree's cube.
+ * A point on the border of cells belongs to those that the ray goes into; where it runs along the border, to the
+ * upper ones, so that it grazes along the cube's upper faces outside. False when there is none, and for an origin
+ * or direction that is not finite, or a direction without length. O(depth) for each leaf on the way. */
+bool octree_ray(const struct octree *tree, const double origin[3], const double direction[3],
+                struct octree_hit *hit);
 
 /* A leaf, as a visitor meets it: its first cell, its side in cells, its material. */
 struct octree_leaf {

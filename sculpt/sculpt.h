@@ -5,8 +5,7 @@
  *     struct chips chips = {0};
  *     struct octree tree = {0};
  *     if (chips_load("cat.chips", &chips, err) || chips_begin(&chips, 6, &tree, err)) ...
- *     for (size_t i = 0; i < chips.count; i++)
- *         if (sculpt_chip(&tree, &chips.items[i], err)) ...
+ *     if (chips_run(&tree, &chips, NULL, err)) ...
  *     chips_clear(&chips);
  *
  * Coordinates are those of the octree's cube [0,1]^3: x right, y up, z towards the viewer. A cell belongs to a
@@ -17,6 +16,8 @@
 
 #include "common/mesh.h"
 #include "common/octree.h"
+
+#include <stdio.h>
 
 enum chip_shape {
     CHIP_BOX,        /* x0 y0 z0 x1 y1 z1: two opposite corners */
@@ -35,11 +36,31 @@ enum { CHIP_VALUES_MAX = 8 };
 #define CHIP_VALUE_MAX  1e6
 #define CHIP_LENGTH_MIN 1e-9
 
-/* One operation: what the shape covers becomes this material (0 takes it away). */
+/* What an operation does. Sandpaper and heat are tools of Galyean and Hughes, "Sculpting: an interactive volumetric
+ * modeling technique", SIGGRAPH 1991: within a ball, x y z r, the one takes away what stands out (a cell is kept that
+ * has 14 full ones, half of them, among the 27 around it, itself included), the other every cell with an exposed
+ * face. Both decide from the sculpture before the operation, mirror images included; beyond the cube all is empty. */
+enum chip_kind {
+    CHIP_CARVE, /* what the shape covers becomes this material (0 takes it away) */
+    CHIP_SANDPAPER,
+    CHIP_HEAT,
+    CHIP_STEP, /* a step for undo ends here */
+    CHIP_UNDO, /* takes back the last step that is done, if there is one */
+    CHIP_REDO, /* does again what was taken back last, unless something else was done since */
+    CHIP_KINDS,
+};
+
+/* Bits of struct chip's mirror: the operation is done with its images about the middle planes x = 1/2, y = 1/2,
+ * z = 1/2 (one, three or seven of them), as one. */
+enum { CHIP_MIRROR_X = 1, CHIP_MIRROR_Y = 2, CHIP_MIRROR_Z = 4 };
+
+/* One operation. */
 struct chip {
-    enum chip_shape shape;
+    enum chip_shape shape; /* of CHIP_CARVE */
     unsigned material;
-    double value[CHIP_VALUES_MAX]; /* as listed at enum chip_shape */
+    double value[CHIP_VALUES_MAX]; /* as listed at enum chip_shape and enum chip_kind */
+    enum chip_kind kind;
+    unsigned mirror;
 };
 
 /* A shape's name in scripts, its values' names ("X Y Z R"), and how many there are. */
@@ -48,12 +69,14 @@ struct chip_shape_name {
     int count;
 };
 extern const struct chip_shape_name chip_shape_names[CHIP_SHAPES];
+extern const struct chip_shape_name chip_kind_names[CHIP_KINDS]; /* the first is of no use */
 
 /* Refuses (STATUS_RANGE) what is no shape: values that are not finite or beyond CHIP_VALUE_MAX; radii, sides of
  * a box, axes (but a capsule's) and normals shorter than CHIP_LENGTH_MIN. */
 enum status chip_check(const struct chip *chip, struct error *err);
 
-/* Carves one chip, which chip_check() accepts. Errors: those of octree_apply(). */
+/* Does one operation, which chip_check() accepts, with its mirror images. A step, undo and redo do nothing here:
+ * see chips_run(). Errors: STATUS_NO_MEMORY, with the tree whole but the operation perhaps done in part. */
 enum status sculpt_chip(struct octree *tree, const struct chip *chip, struct error *err);
 
 /* A script. Lines hold one of these; words are parted by spaces, # begins a comment:
@@ -64,8 +87,13 @@ enum status sculpt_chip(struct octree *tree, const struct chip *chip, struct err
  *     coefficient N B           b_k of the Gaussian field of material N
  *     chip SHAPE VALUES...      takes away
  *     fill SHAPE VALUES...      puts there
+ *     mirror none | x | xy ...  later operations are done with their mirror images; none at first
+ *     sandpaper X Y Z R         smooths what stands out within a ball
+ *     heat X Y Z R              shrinks the surface within a ball by one cell
+ *     step                      ends a step for undo; without such lines each operation is a step
+ *     undo, redo                take back, or do again, a step; they end the step before
  *
- * depth and start come at most once each and before the first chip or fill. */
+ * depth and start come at most once each and before the first operation. */
 struct chips {
     struct chip *items;
     size_t count, capacity;
@@ -80,6 +108,27 @@ struct chips {
  * STATUS_FILE; STATUS_INPUT as "FILE:LINE: ..."; STATUS_NO_MEMORY. */
 enum status chips_load(const char *path, struct chips *chips, struct error *err);
 void chips_clear(struct chips *chips);
+
+/* The same for a text in memory; `name` is what messages call it. */
+enum status chips_parse(const char *name, const void *text, size_t size, struct chips *chips,
+                        struct error *err);
+
+struct history;
+
+/* Does all operations of a script. What it takes back for good is not done in the first place. With a history (see
+ * sculpt/history.h) the steps that remain can be undone afterwards; what the script ends by taking back cannot be
+ * redone. Errors: STATUS_NO_MEMORY, with the tree whole and the operations before the failed one done. */
+enum status chips_run(struct octree *tree, const struct chips *chips, struct history *history,
+                      struct error *err);
+
+/* What a line of a script means depends on lines before it: the material and the mirror. */
+struct chip_state {
+    unsigned material, mirror; /* 1 and 0 at the beginning of a script */
+};
+
+/* Writes the line of an operation, its numbers exact to the bit, behind lines `material` and `mirror` where
+ * *state differs from what the operation needs. */
+void chip_write(FILE *stream, const struct chip *chip, struct chip_state *state);
 
 /* Makes *tree (valid; it is replaced) the cube that the script begins with; `depth` counts where the script
  * names none. Errors: STATUS_RANGE for a depth that is too large. */
