@@ -1,0 +1,19 @@
+/* The chip log: the script, kept in the .oct's chunk OCTREE_CHUNK_LOG, that makes the sculpture from the start. */
+#ifndef SCULPT_CHIP_LOG_H
+#define SCULPT_CHIP_LOG_H
+
+#include "common/file.h"
+#include "sculpt/sculpt.h"
+
+/* Writes into *log (overwritten; free it with bytes_clear()) the log `before` (NULL: a cube that `chips` begins with,
+ * of this depth where the script names none) and, behind it, those of the chips that were not taken back. Equal
+ * operations are equal bytes. Errors: STATUS_NO_MEMORY. */
+enum status chip_log_write(const struct bytes *before, const struct chips *chips, unsigned depth,
+                           struct bytes *log, struct error *err);
+
+/* Whether replaying the log makes an octree equal to the tree. A log that is no script does not. Errors:
+ * STATUS_NO_MEMORY. */
+enum status chip_log_holds(const struct bytes *log, const struct octree *tree, bool *holds,
+                           struct error *err);
+
+#endif
