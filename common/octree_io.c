@@ -9,6 +9,7 @@
  *     "COEF"  optional for each coefficient b_k that is not 1, materials ascending: 1 byte material, 4 bytes
  *                      IEEE float
  *     "TREE"           the cells: see octree_code.h
+ *     others  optional behind TREE, see octree_chunks.h: "CHIP" the chip log, "PREV" a preview picture
  *     "END "  last     nothing
  *
  * Chunks with other names are skipped, so that later versions can add some without locking out this one; a
@@ -16,8 +17,7 @@
  */
 #include "common/array.h"
 #include "common/crc.h"
-#include "common/file.h"
-#include "common/octree.h"
+#include "common/octree_chunks.h"
 #include "common/octree_code.h"
 
 #include <ctype.h>
@@ -86,11 +86,30 @@ static void write_coefficients(FILE *stream, const struct octree *tree)
         write_chunk(stream, "COEF", list, size);
 }
 
+static enum status check_sizes(const struct octree_chunks *chunks, const char *path, struct error *err)
+{
+    for (size_t i = 0; i < chunks->count; i++)
+        if (chunks->items[i].data.size > UINT32_MAX)
+            return error_set(err, STATUS_RANGE, "%s: chunk %s has %zu bytes; at most %u are possible", path,
+                             chunks->items[i].name, chunks->items[i].data.size, UINT32_MAX);
+    return STATUS_OK;
+}
+
 enum status octree_save(const struct octree *tree, const char *path, struct error *err)
 {
+    return octree_save_with(tree, NULL, path, err);
+}
+
+enum status octree_save_with(const struct octree *tree, const struct octree_chunks *chunks, const char *path,
+                             struct error *err)
+{
+    static const struct octree_chunks none = {0};
+    chunks = chunks ? chunks : &none;
     struct octree_code code = {0};
     struct file_out *out = NULL;
-    enum status status = octree_encode(tree, &code, err);
+    enum status status = check_sizes(chunks, path, err);
+    if (!status)
+        status = octree_encode(tree, &code, err);
     if (!status)
         status = file_out_open(path, &out, err);
     if (!status) {
@@ -99,6 +118,9 @@ enum status octree_save(const struct octree *tree, const char *path, struct erro
         write_head(stream, tree);
         write_coefficients(stream, tree);
         write_chunk(stream, "TREE", code.items, code.count);
+        for (size_t i = 0; i < chunks->count; i++)
+            write_chunk(stream, chunks->items[i].name, chunks->items[i].data.data,
+                        chunks->items[i].data.size);
         write_chunk(stream, "END ", NULL, 0);
         status = file_out_commit(out, err);
     }
@@ -115,7 +137,8 @@ struct chunk {
 
 struct loader {
     struct octree tree;
-    uint64_t leaves; /* as HEAD has it */
+    struct octree_chunks *chunks; /* where the others go; NULL: nowhere */
+    uint64_t leaves;              /* as HEAD has it */
     bool has_head, has_coefficients, has_tree;
 };
 
@@ -215,6 +238,23 @@ static enum status load_cells(struct loader *loader, const struct chunk *chunk, 
     return STATUS_OK;
 }
 
+static enum status keep_chunk(struct loader *loader, const struct chunk *chunk, struct error *err)
+{
+    if (!loader->chunks)
+        return STATUS_OK;
+    unsigned char *data = array_new(chunk->size + 1, 1);
+    if (!data || !ARRAY_RESERVE(loader->chunks, 1)) {
+        free(data);
+        return error_no_memory(err, "a chunk");
+    }
+    memcpy(data, chunk->contents, chunk->size);
+    data[chunk->size] = '\0';
+    struct octree_chunk *kept = &loader->chunks->items[loader->chunks->count++];
+    memcpy(kept->name, chunk->name, sizeof kept->name);
+    kept->data = (struct bytes){data, chunk->size};
+    return STATUS_OK;
+}
+
 static enum status load_chunk(struct loader *loader, const struct chunk *chunk, struct error *err)
 {
     if (!strcmp(chunk->name, "HEAD"))
@@ -225,7 +265,7 @@ static enum status load_chunk(struct loader *loader, const struct chunk *chunk, 
         return load_coefficients(loader, chunk, err);
     if (!strcmp(chunk->name, "TREE"))
         return load_cells(loader, chunk, err);
-    return STATUS_OK;
+    return strcmp(chunk->name, "END ") ? keep_chunk(loader, chunk, err) : STATUS_OK;
 }
 
 static enum status load_bytes(struct loader *loader, const struct bytes *file, struct error *err)
@@ -253,20 +293,32 @@ static enum status load_bytes(struct loader *loader, const struct bytes *file, s
 
 enum status octree_load(const char *path, struct octree *tree, struct error *err)
 {
+    return octree_load_with(path, tree, NULL, err);
+}
+
+enum status octree_load_with(const char *path, struct octree *tree, struct octree_chunks *chunks,
+                             struct error *err)
+{
     struct bytes file = {0};
     enum status status = file_read(path, &file, err);
     if (status)
         return status;
-    struct loader loader = {0};
+    struct octree_chunks others = {0};
+    struct loader loader = {.chunks = chunks ? &others : NULL};
     status = load_bytes(&loader, &file, err);
     bytes_clear(&file);
     if (status) {
         octree_clear(&loader.tree);
+        octree_chunks_clear(&others);
         if (err)
             error_prefix(err, path);
         return status;
     }
     octree_clear(tree);
     *tree = loader.tree;
+    if (chunks) {
+        octree_chunks_clear(chunks);
+        *chunks = others;
+    }
     return STATUS_OK;
 }
