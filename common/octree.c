@@ -37,6 +37,7 @@ enum status octree_copy(struct octree *to, const struct octree *from, struct err
     *to = *from;
     to->blocks = blocks;
     to->block_capacity = from->block_count;
+    to->tape = NULL;
     return STATUS_OK;
 }
 
@@ -82,12 +83,14 @@ static bool take_block(struct octree *tree, uint32_t *block)
     if (tree->block_count == tree->block_capacity && !grow(tree))
         return false;
     *block = tree->block_count++;
+    if (tree->tape) /* which compares with what is there */
+        memset(tree->blocks + 8 * (size_t)*block, 0, 8 * sizeof *tree->blocks);
     return true;
 }
 
 static void give_block(struct octree *tree, uint32_t block)
 {
-    tree->blocks[8 * (size_t)block] = tree->free_block;
+    node_write(tree, 8 * (size_t)block, tree->free_block);
     tree->free_block = block;
     tree->free_count++;
 }
@@ -109,7 +112,11 @@ bool octree_join(struct octree *tree, const octree_node children[8], octree_node
     uint32_t block;
     if (!take_block(tree, &block))
         return false;
-    memcpy(tree->blocks + 8 * (size_t)block, children, 8 * sizeof *children);
+    if (tree->tape)
+        for (int i = 0; i < 8; i++)
+            node_write(tree, 8 * (size_t)block + i, children[i]);
+    else
+        memcpy(tree->blocks + 8 * (size_t)block, children, 8 * sizeof *children);
     *node = OCTREE_SPLIT + block;
     return true;
 }

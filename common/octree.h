@@ -106,10 +106,11 @@ struct octree_hit {
     unsigned material;
 };
 
-/* The first cell that is not empty along the ray origin + t direction, t >= 0, in units of the octree's cube.
- * A point on the border of cells belongs to those that the ray goes into; where it runs along the border, to the
- * upper ones, so that it grazes along the cube's upper faces outside. False when there is none, and for an origin
- * or direction that is not finite, or a direction without length. O(depth) for each leaf on the way. */
+/* The first cell that is not empty along the ray origin + t direction, t >= 0, in units of the octree's cube. The ray
+ * goes from cell to cell through faces, so the face it enters by borders on an empty cell or on the outside; where it
+ * meets an edge or a corner it crosses x first, then y, then z. A ray that begins on a border begins in the cell that
+ * it goes into; one that runs along a border runs in the cells above. False when there is no such cell, and for an
+ * origin or direction that is not finite and a direction without length. O(depth) for each leaf on the way. */
 bool octree_ray(const struct octree *tree, const double origin[3], const double direction[3],
                 struct octree_hit *hit);
 

@@ -3,7 +3,7 @@
 #ifndef COMMON_OCTREE_BLOCKS_H
 #define COMMON_OCTREE_BLOCKS_H
 
-#include "common/octree.h"
+#include "common/octree_tape.h"
 
 static inline bool node_is_split(octree_node node)
 {
@@ -14,6 +14,20 @@ static inline bool node_is_split(octree_node node)
 static inline size_t node_children(octree_node node)
 {
     return 8 * (size_t)(node & ~OCTREE_SPLIT);
+}
+
+/* Records what was at a place of tree->blocks, just before something else is written there. */
+void octree_tape_note(struct octree_tape *tape, size_t at, octree_node before);
+
+/* Records that something changed in a cube of cells. */
+void octree_tape_region(struct octree_tape *tape, const int corner[3], int side);
+
+/* Every change to a block that belongs to the tree, or did, is made by this. */
+static inline void node_write(struct octree *tree, size_t at, octree_node node)
+{
+    if (tree->tape && tree->blocks[at] != node)
+        octree_tape_note(tree->tape, at, tree->blocks[at]);
+    tree->blocks[at] = node;
 }
 
 /* The node that has these children: the leaf that they agree on, or a split node over a new block, which may

@@ -9,7 +9,17 @@ struct edit {
     const void *shape;
     octree_node material;
     bool failed; /* a block could not be had */
+    struct octree_tape *tape;
+    double low[3], high[3]; /* around what changed; kept where there is a tape */
 };
+
+static inline void note_change(struct edit *edit, const double corner[3], double side)
+{
+    for (int k = 0; k < 3; k++) {
+        edit->low[k] = corner[k] < edit->low[k] ? corner[k] : edit->low[k];
+        edit->high[k] = corner[k] + side > edit->high[k] ? corner[k] + side : edit->high[k];
+    }
+}
 
 static octree_node edit_node(struct edit *edit, octree_node node, const double corner[3], double side,
                              unsigned level);
@@ -19,14 +29,16 @@ static octree_node edit_node(struct edit *edit, octree_node node, const double c
 static inline octree_node edit_child(struct edit *edit, struct octree_cover cover, octree_node child, int i,
                                      const double corner[3], double side, unsigned level)
 {
-    if (cover.inside >> i & 1) {
-        octree_release(edit->tree, child);
-        return edit->material;
-    }
     if (cover.outside >> i & 1 || child == edit->material || edit->failed)
         return child;
     const double at[3] = {corner[0] + (i & 1 ? side : 0), corner[1] + (i & 2 ? side : 0),
                           corner[2] + (i & 4 ? side : 0)};
+    if (cover.inside >> i & 1) {
+        if (edit->tape)
+            note_change(edit, at, side);
+        octree_release(edit->tree, child);
+        return edit->material;
+    }
     return edit_node(edit, child, at, side, level);
 }
 
@@ -46,13 +58,19 @@ static octree_node edit_leaf(struct edit *edit, struct octree_cover cover, octre
 }
 
 /* The same for children that are cells: they are leaves and are not crossed. */
-static octree_node edit_cells(struct edit *edit, unsigned inside, octree_node node)
+static octree_node edit_cells(struct edit *edit, unsigned inside, octree_node node, const double corner[3],
+                              double side)
 {
     octree_node cells[8];
     if (inside == 0 || node == edit->material)
         return node;
+    if (edit->tape)
+        note_change(edit, corner, side);
     if (node_is_split(node)) {
         octree_node *cell = edit->tree->blocks + node_children(node);
+        for (int i = 0; i < 8 && edit->tape; i++)
+            if (inside >> i & 1 && cell[i] != edit->material)
+                octree_tape_note(edit->tape, node_children(node) + i, cell[i]);
         for (int i = 0; i < 8; i++)
             cell[i] = inside >> i & 1 ? edit->material : cell[i];
         return octree_merge(edit->tree, node);
@@ -72,27 +90,40 @@ static octree_node edit_node(struct edit *edit, octree_node node, const double c
     level--;
     struct octree_cover cover = edit->covers(edit->shape, corner, half, level == 0);
     if (level == 0)
-        return edit_cells(edit, cover.inside, node);
+        return edit_cells(edit, cover.inside, node, corner, side);
     if (!node_is_split(node))
         return edit_leaf(edit, cover, node, corner, half, level);
     for (int i = 0; i < 8; i++) {
         octree_node child = edit->tree->blocks[node_children(node) + i];
         child = edit_child(edit, cover, child, i, corner, half, level);
-        edit->tree->blocks[node_children(node) + i] = child; /* blocks may have moved meanwhile */
+        node_write(edit->tree, node_children(node) + i, child); /* blocks may have moved meanwhile */
     }
     return octree_merge(edit->tree, node);
+}
+
+static void note_region(const struct edit *edit)
+{
+    struct octree_region region;
+    const double cells = 1 << edit->tree->depth;
+    for (int k = 0; k < 3; k++) {
+        region.low[k] = (int)(edit->low[k] * cells);
+        region.high[k] = (int)(edit->high[k] * cells) - 1;
+    }
+    octree_regions_add(&edit->tape->regions, &region);
 }
 
 enum status octree_apply(struct octree *tree, octree_shape *covers, const void *shape, unsigned material,
                          struct error *err)
 {
     assert(material < OCTREE_MATERIALS);
-    struct edit edit = {tree, covers, shape, material, false};
+    struct edit edit = {tree, covers, shape, material, false, tree->tape, {1, 1, 1}, {0}};
     const double corner[3] = {0}; /* the root is the first child of a cube of side 2 */
     struct octree_cover cover = covers(shape, corner, 1, tree->depth == 0);
     if (tree->depth == 0)
         cover.outside = ~cover.inside;
     tree->root = edit_child(&edit, cover, tree->root, 0, corner, 1, tree->depth);
+    if (tree->tape && edit.high[0] > 0)
+        note_region(&edit);
     return edit.failed ? error_no_memory(err, "the octree") : STATUS_OK;
 }
 
@@ -137,8 +168,10 @@ enum status octree_set(struct octree *tree, int x, int y, int z, unsigned materi
         return STATUS_OK;
     if (!set_in_leaf(tree, &node, cell, level, material))
         return error_no_memory(err, "the octree");
+    if (tree->tape)
+        octree_tape_region(tree->tape, (const int[3]){x, y, z}, 1);
     while (steps-- > 0) {
-        tree->blocks[place[steps]] = node;
+        node_write(tree, place[steps], node);
         node = octree_merge(tree, path[steps]);
     }
     tree->root = node;

@@ -86,7 +86,7 @@ static octree_node fill(struct sets *sets, slot at, uint64_t side, octree_node m
     }
     for (int i = 0; i < 8; i++) {
         slot child = child_at(sets, at, i);
-        sets->tree->blocks[child] = fill(sets, child, side / 2, material, filled);
+        node_write(sets->tree, child, fill(sets, child, side / 2, material, filled));
     }
     return octree_merge(sets->tree, node);
 }
@@ -107,5 +107,7 @@ enum status octree_fill_hollows(struct octree *tree, unsigned material, uint64_t
     *cells = 0;
     tree->root = fill(&sets, root, UINT64_C(1) << tree->depth, material, cells);
     free(sets.parent);
+    if (tree->tape && *cells > 0 && material != 0)
+        octree_tape_region(tree->tape, (const int[3]){0}, 1 << tree->depth);
     return STATUS_OK;
 }

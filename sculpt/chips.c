@@ -1,10 +1,12 @@
-/* Single chips: what they are called, what they must be, and carving them. */
+/* Single operations: what they are called, what they must be, their mirror images, and doing them. */
 #include "sculpt/sculpt.h"
 
 #include "common/vec3.h"
 #include "sculpt/shapes.h"
+#include "sculpt/smooth.h"
 
 #include <math.h>
+#include <string.h>
 
 const struct chip_shape_name chip_shape_names[CHIP_SHAPES] = {
     [CHIP_BOX] = {"box", "X0 Y0 Z0 X1 Y1 Z1", 6},
@@ -16,12 +18,26 @@ const struct chip_shape_name chip_shape_names[CHIP_SHAPES] = {
     [CHIP_CAPSULE] = {"capsule", "X0 Y0 Z0 X1 Y1 Z1 R0 R1", 8},
 };
 
+const struct chip_shape_name chip_kind_names[CHIP_KINDS] = {
+    [CHIP_CARVE] = {"chip", "SHAPE VALUES", 0},
+    [CHIP_SANDPAPER] = {"sandpaper", "X Y Z R", 4},
+    [CHIP_HEAT] = {"heat", "X Y Z R", 4},
+    [CHIP_STEP] = {"step", "", 0},
+    [CHIP_UNDO] = {"undo", "", 0},
+    [CHIP_REDO] = {"redo", "", 0},
+};
+
+static const struct chip_shape_name *name_of(const struct chip *chip)
+{
+    return chip->kind == CHIP_CARVE ? &chip_shape_names[chip->shape] : &chip_kind_names[chip->kind];
+}
+
 static enum status check_values(const struct chip *chip, struct error *err)
 {
-    for (int i = 0; i < chip_shape_names[chip->shape].count; i++)
+    for (int i = 0; i < name_of(chip)->count; i++)
         if (!(fabs(chip->value[i]) <= CHIP_VALUE_MAX))
             return error_set(err, STATUS_RANGE, "number %d of the %s is %g; must be within +-%g", i + 1,
-                             chip_shape_names[chip->shape].name, chip->value[i], CHIP_VALUE_MAX);
+                             name_of(chip)->name, chip->value[i], CHIP_VALUE_MAX);
     return STATUS_OK;
 }
 
@@ -29,8 +45,8 @@ static enum status check_radius(const struct chip *chip, int i, struct error *er
 {
     if (chip->value[i] >= CHIP_LENGTH_MIN)
         return STATUS_OK;
-    return error_set(err, STATUS_RANGE, "a radius of the %s is %g; must be above 0",
-                     chip_shape_names[chip->shape].name, chip->value[i]);
+    return error_set(err, STATUS_RANGE, "a radius of the %s is %g; must be above 0", name_of(chip)->name,
+                     chip->value[i]);
 }
 
 static enum status check_box(const double *value, struct error *err)
@@ -61,11 +77,9 @@ static enum status check_cone(const struct chip *chip, struct error *err)
     return check_axis(chip, err);
 }
 
-enum status chip_check(const struct chip *chip, struct error *err)
+static enum status check_shape(const struct chip *chip, struct error *err)
 {
-    enum status status = check_values(chip, err);
-    if (status)
-        return status;
+    enum status status = STATUS_OK;
     switch (chip->shape) {
     case CHIP_BOX:
         return check_box(chip->value, err);
@@ -92,9 +106,53 @@ enum status chip_check(const struct chip *chip, struct error *err)
     return STATUS_OK;
 }
 
-enum status sculpt_chip(struct octree *tree, const struct chip *chip, struct error *err)
+enum status chip_check(const struct chip *chip, struct error *err)
+{
+    enum status status = check_values(chip, err);
+    if (status)
+        return status;
+    if (chip->kind == CHIP_CARVE)
+        return check_shape(chip, err);
+    return name_of(chip)->count > 0 ? check_radius(chip, 3, err) : STATUS_OK;
+}
+
+struct chip chip_image(const struct chip *chip, unsigned axes)
+{
+    struct chip image = *chip;
+    bool carves = chip->kind == CHIP_CARVE;
+    bool two_points = carves && chip->shape != CHIP_SPHERE && chip->shape != CHIP_ELLIPSOID;
+    for (int k = 0; k < 3; k++) {
+        if (!(axes >> k & 1))
+            continue;
+        image.value[k] = 1 - chip->value[k];
+        if (two_points)
+            image.value[k + 3] = (chip->shape == CHIP_HALF_SPACE ? 0 : 1) - chip->value[k + 3];
+    }
+    image.mirror = 0;
+    return image;
+}
+
+static enum status carve(struct octree *tree, const struct chip *chip, struct error *err)
 {
     struct shape shape;
     shape_init(&shape, chip, tree->depth);
     return octree_apply(tree, shape.covers, &shape, chip->material, err);
+}
+
+enum status sculpt_chip(struct octree *tree, const struct chip *chip, struct error *err)
+{
+    enum status status = STATUS_OK;
+    struct smooth_balls balls = {.radius = chip->value[3]};
+    if (chip->kind >= CHIP_STEP)
+        return STATUS_OK;
+    for (unsigned axes = 0; axes < 8 && !status; axes++) {
+        if (axes & ~chip->mirror)
+            continue;
+        const struct chip image = chip_image(chip, axes);
+        if (chip->kind == CHIP_CARVE)
+            status = carve(tree, &image, err);
+        else
+            memcpy(balls.centre[balls.count++], image.value, sizeof *balls.centre);
+    }
+    return chip->kind == CHIP_CARVE ? status : smooth(tree, chip->kind, &balls, err);
 }

@@ -169,12 +169,10 @@ static enum status carve(const struct options *options, struct octree *tree, str
         status = chips_begin(&chips, tree->depth, tree, err);
     else if (!status)
         chips_set_coefficients(&chips, tree);
+    chips.progress = progress_update;
     progress_begin("carving", "chips", (double)chips.count);
-    for (size_t i = 0; i < chips.count && !status; i++) {
-        status = sculpt_chip(tree, &chips.items[i], err);
-        if (i % 1024 == 0)
-            progress_update((double)i);
-    }
+    if (!status)
+        status = chips_run(tree, &chips, NULL, err);
     progress_end();
     chips_clear(&chips);
     return status;

@@ -1,4 +1,4 @@
-/* Scripts of chips: .chips files. */
+/* Scripts of chips: reading .chips files. */
 #include "common/array.h"
 #include "common/file.h"
 #include "common/text.h"
@@ -10,7 +10,7 @@
 struct parser {
     struct text text;
     struct chips chips;
-    unsigned material; /* of the next fill */
+    struct chip_state state; /* of the next operation */
     struct error *err;
 };
 
@@ -64,7 +64,7 @@ static enum status check_header(struct parser *parser, const char *name, int see
         return text_fail(&parser->text, parser->err, "%s a second time; line %d has it already", name,
                          seen_at);
     if (parser->chips.count > 0)
-        return text_fail(&parser->text, parser->err, "%s must come before the first chip or fill", name);
+        return text_fail(&parser->text, parser->err, "%s must come before the first operation", name);
     return STATUS_OK;
 }
 
@@ -89,7 +89,7 @@ static enum status read_start(struct parser *parser)
         return status;
     if (!next_word(parser, &word) || (!word_is(word, "full") && !word_is(word, "empty")))
         return text_fail(&parser->text, parser->err, "full or empty is missing; the line is: %s", usage);
-    chips->start_material = word_is(word, "full") ? parser->material : 0;
+    chips->start_material = word_is(word, "full") ? parser->state.material : 0;
     chips->start_line = (int)parser->text.line;
     return end_line(parser, usage);
 }
@@ -99,7 +99,7 @@ static enum status read_material(struct parser *parser)
     static const char usage[] = "material N";
     int material = 0;
     enum status status = read_whole(parser, usage, 1, OCTREE_MATERIALS - 1, &material);
-    parser->material = (unsigned)material;
+    parser->state.material = (unsigned)material;
     return status ? status : end_line(parser, usage);
 }
 
@@ -119,6 +119,24 @@ static enum status read_coefficient(struct parser *parser)
     return status ? status : end_line(parser, usage);
 }
 
+static enum status read_mirror(struct parser *parser)
+{
+    static const char usage[] = "mirror none, or some of the letters x, y and z";
+    static const char *const names[8] = {"none", "x", "y", "xy", "z", "xz", "yz", "xyz"};
+    struct word word = {0};
+    char shown[WORD_SHOWN_SIZE];
+    if (!next_word(parser, &word))
+        return text_fail(&parser->text, parser->err, "the line ends early; it is: %s", usage);
+    for (unsigned axes = 0; axes < 8; axes++)
+        if (word_is(word, names[axes])) {
+            parser->state.mirror = axes;
+            return end_line(parser, usage);
+        }
+    return text_fail(&parser->text, parser->err,
+                     "\"%s\" is no mirror; there are none, x, y, z, xy, xz, yz and xyz",
+                     word_show(word, shown));
+}
+
 static enum status find_shape(struct parser *parser, enum chip_shape *shape)
 {
     struct word word = {0};
@@ -136,28 +154,44 @@ static enum status find_shape(struct parser *parser, enum chip_shape *shape)
                      shapes);
 }
 
+/* The values of an operation whose name has been read, and the end of its line. */
+static enum status read_values(struct parser *parser, struct chip *chip, const char *usage, int count)
+{
+    struct error why = {0};
+    enum status status = STATUS_OK;
+    for (int i = 0; i < count && !status; i++)
+        status = read_number(parser, usage, &chip->value[i]);
+    if (!status)
+        status = end_line(parser, usage);
+    if (status)
+        return status;
+    if (chip_check(chip, &why))
+        return text_fail(&parser->text, parser->err, "%s", why.text);
+    if (!ARRAY_RESERVE(&parser->chips, 1))
+        return error_no_memory(parser->err, "the chips");
+    parser->chips.items[parser->chips.count++] = *chip;
+    return STATUS_OK;
+}
+
 static enum status read_chip(struct parser *parser, unsigned material)
 {
-    struct chip chip = {.material = material};
-    struct error why = {0};
+    struct chip chip = {.material = material, .mirror = parser->state.mirror};
     enum status status = find_shape(parser, &chip.shape);
     if (status)
         return status;
     const struct chip_shape_name *name = &chip_shape_names[chip.shape];
     char usage[64];
     snprintf(usage, sizeof usage, "%s %s %s", material ? "fill" : "chip", name->name, name->values);
-    for (int i = 0; i < name->count && !status; i++)
-        status = read_number(parser, usage, &chip.value[i]);
-    if (!status)
-        status = end_line(parser, usage);
-    if (status)
-        return status;
-    if (chip_check(&chip, &why))
-        return text_fail(&parser->text, parser->err, "%s", why.text);
-    if (!ARRAY_RESERVE(&parser->chips, 1))
-        return error_no_memory(parser->err, "the chips");
-    parser->chips.items[parser->chips.count++] = chip;
-    return STATUS_OK;
+    return read_values(parser, &chip, usage, name->count);
+}
+
+static enum status read_tool(struct parser *parser, enum chip_kind kind)
+{
+    const struct chip_shape_name *name = &chip_kind_names[kind];
+    struct chip chip = {.kind = kind, .mirror = name->count > 0 ? parser->state.mirror : 0};
+    char usage[64];
+    snprintf(usage, sizeof usage, "%s%s%s", name->name, name->count > 0 ? " " : "", name->values);
+    return read_values(parser, &chip, usage, name->count);
 }
 
 static enum status read_line(struct parser *parser)
@@ -169,7 +203,12 @@ static enum status read_line(struct parser *parser)
     if (word_is(word, "chip"))
         return read_chip(parser, 0);
     if (word_is(word, "fill"))
-        return read_chip(parser, parser->material);
+        return read_chip(parser, parser->state.material);
+    for (int kind = CHIP_SANDPAPER; kind < CHIP_KINDS; kind++)
+        if (word_is(word, chip_kind_names[kind].name))
+            return read_tool(parser, (enum chip_kind)kind);
+    if (word_is(word, "mirror"))
+        return read_mirror(parser);
     if (word_is(word, "material"))
         return read_material(parser);
     if (word_is(word, "coefficient"))
@@ -180,25 +219,23 @@ static enum status read_line(struct parser *parser)
         return read_start(parser);
     return text_fail(
         &parser->text, parser->err,
-        "\"%s\" is unknown; a line begins with chip, fill, material, coefficient, depth or start",
+        "\"%s\" is unknown; a line begins with chip, fill, sandpaper, heat, mirror, material, coefficient, step, "
+        "undo, redo, depth or start",
         word_show(word, shown));
 }
 
-enum status chips_load(const char *path, struct chips *chips, struct error *err)
+enum status chips_parse(const char *name, const void *text, size_t size, struct chips *chips,
+                        struct error *err)
 {
-    struct bytes file = {0};
-    enum status status = file_read(path, &file, err);
-    if (status)
-        return status;
     struct parser parser = {
-        .text = text_of(path, file.data, file.size), .chips.start_material = 1, .material = 1, .err = err};
-    if (file.size == 0)
+        .text = text_of(name, text, size), .chips.start_material = 1, .state = {1, 0}, .err = err};
+    enum status status = STATUS_OK;
+    if (size == 0)
         status = error_set(err, STATUS_INPUT,
-                           "%s: the file is empty; a line such as \"chip sphere %s\" is wanted", path,
+                           "%s: the file is empty; a line such as \"chip sphere %s\" is wanted", name,
                            "0.5 0.5 0.5 0.2");
     for (; !status && !text_ended(&parser.text); text_next_line(&parser.text))
         status = read_line(&parser);
-    bytes_clear(&file);
     if (status) {
         chips_clear(&parser.chips);
         return status;
@@ -206,6 +243,16 @@ enum status chips_load(const char *path, struct chips *chips, struct error *err)
     chips_clear(chips);
     *chips = parser.chips;
     return STATUS_OK;
+}
+
+enum status chips_load(const char *path, struct chips *chips, struct error *err)
+{
+    struct bytes file = {0};
+    enum status status = file_read(path, &file, err);
+    if (!status)
+        status = chips_parse(path, file.data, file.size, chips, err);
+    bytes_clear(&file);
+    return status;
 }
 
 void chips_clear(struct chips *chips)
@@ -232,45 +279,4 @@ enum status chips_begin(const struct chips *chips, unsigned depth, struct octree
     octree_clear(tree);
     *tree = cube;
     return STATUS_OK;
-}
-
-struct script_writer {
-    FILE *stream;
-    double cell; /* its side */
-    unsigned material;
-};
-
-static void write_material(struct script_writer *writer, unsigned material)
-{
-    if (material != writer->material)
-        fprintf(writer->stream, "material %u\n", material);
-    writer->material = material;
-}
-
-/* Coordinates are whole numbers over 2^10 at most, which ten digits hold exactly. */
-static bool write_leaf(void *context, const struct octree_leaf *leaf)
-{
-    struct script_writer *writer = context;
-    double cell = writer->cell;
-    write_material(writer, leaf->material);
-    fprintf(writer->stream, "fill box %.10g %.10g %.10g %.10g %.10g %.10g\n", leaf->x * cell, leaf->y * cell,
-            leaf->z * cell, (leaf->x + leaf->side) * cell, (leaf->y + leaf->side) * cell,
-            (leaf->z + leaf->side) * cell);
-    return true;
-}
-
-enum status chips_save(const struct octree *tree, const char *path, struct error *err)
-{
-    struct file_out *out;
-    enum status status = file_out_open(path, &out, err);
-    if (status)
-        return status;
-    struct script_writer writer = {file_out_stream(out), ldexp(1, -(int)tree->depth), 1};
-    fprintf(writer.stream, "# %zu leaves\ndepth %u\n", octree_leaf_count(tree), tree->depth);
-    fputs("start empty\n", writer.stream);
-    for (int m = 1; m < OCTREE_MATERIALS; m++)
-        if (tree->coefficient[m] != 1)
-            fprintf(writer.stream, "coefficient %d %.9g\n", m, (double)tree->coefficient[m]);
-    octree_visit_all(tree, write_leaf, &writer);
-    return file_out_commit(out, err);
 }

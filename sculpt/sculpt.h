@@ -75,6 +75,10 @@ extern const struct chip_shape_name chip_kind_names[CHIP_KINDS]; /* the first is
  * a box, axes (but a capsule's) and normals shorter than CHIP_LENGTH_MIN. */
 enum status chip_check(const struct chip *chip, struct error *err);
 
+/* The operation's image about the middle planes of these axes (bits as in `mirror`; 0: about none), without further
+ * mirroring. */
+struct chip chip_image(const struct chip *chip, unsigned axes);
+
 /* Does one operation, which chip_check() accepts, with its mirror images. A step, undo and redo do nothing here:
  * see chips_run(). Errors: STATUS_NO_MEMORY, with the tree whole but the operation perhaps done in part. */
 enum status sculpt_chip(struct octree *tree, const struct chip *chip, struct error *err);
@@ -102,6 +106,7 @@ struct chips {
     int start_line;                      /* 0 without a line `start` */
     float coefficient[OCTREE_MATERIALS]; /* where the next says so */
     bool has_coefficient[OCTREE_MATERIALS];
+    void (*progress)(double done); /* unless NULL, chips_run() tells it how many operations are done */
 };
 
 /* Reads a script; *chips must be valid ({0} is) and is replaced, or as it was after a failure. Errors:

@@ -212,7 +212,8 @@ static void boxes_side_by_side_share_no_cell(void **state)
     /* the border runs through the centres of the cells 31: they belong to the second box alone */
     const double border = 31.5 / SIDE;
     struct octree tree = new_tree(DEPTH, 0);
-    struct chip left = {CHIP_BOX, 1, {0, 0, 0, border, 1, 1}}, right = {CHIP_BOX, 2, {border, 1, 1, 1, 0, 0}};
+    struct chip left = {CHIP_BOX, 1, {0, 0, 0, border, 1, 1}, CHIP_CARVE, 0},
+                right = {CHIP_BOX, 2, {border, 1, 1, 1, 0, 0}, CHIP_CARVE, 0};
     assert_int_equal(cells_after(&tree, left), 31 * SIDE * SIDE);
     assert_int_equal(cells_after(&tree, right), SIDE * SIDE * SIDE);
     assert_int_equal(octree_at(&tree, 30, 0, 0), 1);
@@ -224,10 +225,10 @@ static void chips_outside_the_cube_change_nothing(void **state)
 {
     (void)state;
     struct octree tree = new_tree(DEPTH, 1);
-    struct chip chips[] = {{CHIP_SPHERE, 0, {3, 0.5, 0.5, 1}},
-                           {CHIP_BOX, 0, {1, 0, 0, 2, 1, 1}},
-                           {CHIP_HALF_SPACE, 0, {0.5, 1.1, 0.5, 0, 1e6, 0}},
-                           {CHIP_CAPSULE, 0, {-1e6, 1e6, 0, 1e6, 1e6, 0, 1, 1}}};
+    struct chip chips[] = {{CHIP_SPHERE, 0, {3, 0.5, 0.5, 1}, CHIP_CARVE, 0},
+                           {CHIP_BOX, 0, {1, 0, 0, 2, 1, 1}, CHIP_CARVE, 0},
+                           {CHIP_HALF_SPACE, 0, {0.5, 1.1, 0.5, 0, 1e6, 0}, CHIP_CARVE, 0},
+                           {CHIP_CAPSULE, 0, {-1e6, 1e6, 0, 1e6, 1e6, 0, 1, 1}, CHIP_CARVE, 0}};
     for (size_t i = 0; i < sizeof chips / sizeof *chips; i++)
         assert_int_equal(cells_after(&tree, chips[i]), SIDE * SIDE * SIDE);
     assert_int_equal(octree_leaf_count(&tree), 1);
@@ -238,9 +239,11 @@ static void a_capsule_that_does_not_move_is_its_larger_sphere(void **state)
 {
     (void)state;
     struct octree sphere = new_tree(DEPTH, 0), still = new_tree(DEPTH, 0), swallowed = new_tree(DEPTH, 0);
-    cells_after(&sphere, (struct chip){CHIP_SPHERE, 1, {0.5, 0.5, 0.5, 0.3}});
-    cells_after(&still, (struct chip){CHIP_CAPSULE, 1, {0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.1, 0.3}});
-    cells_after(&swallowed, (struct chip){CHIP_CAPSULE, 1, {0.5, 0.5, 0.5, 0.55, 0.5, 0.5, 0.3, 0.1}});
+    cells_after(&sphere, (struct chip){CHIP_SPHERE, 1, {0.5, 0.5, 0.5, 0.3}, CHIP_CARVE, 0});
+    cells_after(&still,
+                (struct chip){CHIP_CAPSULE, 1, {0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.1, 0.3}, CHIP_CARVE, 0});
+    cells_after(&swallowed,
+                (struct chip){CHIP_CAPSULE, 1, {0.5, 0.5, 0.5, 0.55, 0.5, 0.5, 0.3, 0.1}, CHIP_CARVE, 0});
     assert_true(octree_equal(&sphere, &still));
     assert_true(octree_equal(&sphere, &swallowed));
     octree_clear(&sphere);
@@ -255,17 +258,18 @@ static void what_is_no_shape_is_refused(void **state)
         struct chip chip;
         const char *part;
     } cases[] = {
-        {{CHIP_SPHERE, 0, {0, 0, 0, 0}}, "a radius of the sphere is 0; must be above 0"},
-        {{CHIP_SPHERE, 0, {0, NAN, 0, 1}}, "number 2 of the sphere is nan"},
-        {{CHIP_SPHERE, 0, {0, 0, 1e300, 1}}, "number 3 of the sphere is 1e+300; must be within +-1e+06"},
-        {{CHIP_ELLIPSOID, 0, {0, 0, 0, 1, 1, -1}}, "a radius of the ellipsoid is -1"},
-        {{CHIP_BOX, 0, {0, 0, 0, 1, 0, 1}}, "the box is flat along y"},
-        {{CHIP_HALF_SPACE, 0, {0, 0, 0, 0, 0, 0}}, "normal has no length"},
-        {{CHIP_CYLINDER, 0, {1, 1, 1, 1, 1, 1, 1}}, "the axis of the cylinder has no length"},
-        {{CHIP_CYLINDER, 0, {0, 0, 0, 1, 1, 1, INFINITY}}, "number 7 of the cylinder is inf"},
-        {{CHIP_CONE, 0, {0, 0, 0, 1, 1, 1, 0, 0}}, "both radii of the cone are 0"},
-        {{CHIP_CONE, 0, {0, 0, 0, 1, 1, 1, 1, -1}}, "a radius of the cone is -1"},
-        {{CHIP_CAPSULE, 0, {0, 0, 0, 1, 1, 1, 1, 0}}, "a radius of the capsule is 0"},
+        {{CHIP_SPHERE, 0, {0, 0, 0, 0}, CHIP_CARVE, 0}, "a radius of the sphere is 0; must be above 0"},
+        {{CHIP_SPHERE, 0, {0, NAN, 0, 1}, CHIP_CARVE, 0}, "number 2 of the sphere is nan"},
+        {{CHIP_SPHERE, 0, {0, 0, 1e300, 1}, CHIP_CARVE, 0},
+         "number 3 of the sphere is 1e+300; must be within +-1e+06"},
+        {{CHIP_ELLIPSOID, 0, {0, 0, 0, 1, 1, -1}, CHIP_CARVE, 0}, "a radius of the ellipsoid is -1"},
+        {{CHIP_BOX, 0, {0, 0, 0, 1, 0, 1}, CHIP_CARVE, 0}, "the box is flat along y"},
+        {{CHIP_HALF_SPACE, 0, {0, 0, 0, 0, 0, 0}, CHIP_CARVE, 0}, "normal has no length"},
+        {{CHIP_CYLINDER, 0, {1, 1, 1, 1, 1, 1, 1}, CHIP_CARVE, 0}, "the axis of the cylinder has no length"},
+        {{CHIP_CYLINDER, 0, {0, 0, 0, 1, 1, 1, INFINITY}, CHIP_CARVE, 0}, "number 7 of the cylinder is inf"},
+        {{CHIP_CONE, 0, {0, 0, 0, 1, 1, 1, 0, 0}, CHIP_CARVE, 0}, "both radii of the cone are 0"},
+        {{CHIP_CONE, 0, {0, 0, 0, 1, 1, 1, 1, -1}, CHIP_CARVE, 0}, "a radius of the cone is -1"},
+        {{CHIP_CAPSULE, 0, {0, 0, 0, 1, 1, 1, 1, 0}, CHIP_CARVE, 0}, "a radius of the capsule is 0"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct error err = {0};
@@ -348,7 +352,7 @@ static void a_wrong_line_is_named(void **state)
         {"depth\n", "a.chips:1: the line ends early; it is: depth N"},
         {"depth 3\ndepth 3\n", "a.chips:2: depth a second time; line 1 has it already"},
         {"start full\nstart full\n", "a.chips:2: start a second time"},
-        {"chip sphere 0 0 0 1\nstart full\n", "a.chips:2: start must come before the first chip or fill"},
+        {"chip sphere 0 0 0 1\nstart full\n", "a.chips:2: start must come before the first operation"},
         {"start half\n", "a.chips:1: full or empty is missing"},
         {"material 0\n", "a.chips:1: \"0\" must be a whole number from 1 to 255"},
         {"coefficient 256 1\n", "a.chips:1: \"256\" must be a whole number from 1 to 255"},

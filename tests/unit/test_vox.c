@@ -542,7 +542,7 @@ static void a_long_sculpture_is_saved_as_several_models(void **state)
     struct error err = {0};
     struct octree tree = {0};
     assert_ok(octree_init(&tree, 9, 0, &err), &err);
-    struct chip rod = {CHIP_CAPSULE, 3, {0.05, 0.1, 0.9, 0.9, 0.95, 0.2, 0.004, 0.01}};
+    struct chip rod = {CHIP_CAPSULE, 3, {0.05, 0.1, 0.9, 0.9, 0.95, 0.2, 0.004, 0.01}, CHIP_CARVE, 0};
     assert_ok(sculpt_chip(&tree, &rod, &err), &err);
     assert_round_trip(&tree);
     octree_clear(&tree);
