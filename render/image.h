@@ -10,6 +10,7 @@
 #ifndef RENDER_IMAGE_H
 #define RENDER_IMAGE_H
 
+#include "common/file.h"
 #include "common/status.h"
 
 #include <stddef.h>
@@ -40,5 +41,9 @@ struct image_text {
  * Errors: STATUS_FILE, STATUS_NO_MEMORY. Different pictures may be saved from different threads at once. */
 enum status image_save_png(const struct image *image, const char *path, const struct image_text *texts,
                            size_t text_count, struct error *err);
+
+/* The same as bytes in memory; *png is overwritten, free it with bytes_clear(). Errors: STATUS_NO_MEMORY. */
+enum status image_encode_png(const struct image *image, const struct image_text *texts, size_t text_count,
+                             struct bytes *png, struct error *err);
 
 #endif

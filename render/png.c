@@ -99,3 +99,21 @@ enum status image_save_png(const struct image *image, const char *path, const st
     file_out_abandon(out);
     return error_prefix(err, path);
 }
+
+enum status image_encode_png(const struct image *image, const struct image_text *texts, size_t text_count,
+                             struct bytes *png, struct error *err)
+{
+    char *data = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&data, &size);
+    if (!stream)
+        return error_no_memory(err, "a PNG file");
+    enum status status = write_png(image, texts, text_count, stream, err);
+    if (fclose(stream) && !status)
+        status = error_no_memory(err, "a PNG file");
+    if (status)
+        free(data);
+    else
+        *png = (struct bytes){(unsigned char *)data, size};
+    return status;
+}
