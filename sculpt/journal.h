@@ -30,10 +30,9 @@ struct journal;
 enum status journal_is_left(const char *path, bool *left, struct error *err);
 
 struct journal_report {
-    size_t operations; /* that were done, steps, undo and redo included */
+    size_t operations; /* whole ones: steps, undo and redo count too */
     size_t lost_bytes; /* of a last line that is cut off, or from the first damaged line on */
-    bool unsaved;      /* the result differs from the sculpture in `path`, or that is not there */
-    char path[4096];   /* of the journal, for messages */
+    bool unsaved;      /* the result differs from the sculpture in `path`, or there is none */
 };
 
 /* Makes *tree (valid; it is replaced, or as it was after a failure) what the journal of the sculpture `path` leads

@@ -1,0 +1,246 @@
+/* Writing journals. */
+#include "sculpt/journal.h"
+
+#include "sculpt/journal_text.h"
+
+#include <assert.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+struct journal {
+    int file;
+    off_t size;
+    uint32_t sum; /* of the last line */
+    char *path, *base;
+};
+
+/* Where locks are not possible (some network file systems) there is none. */
+static enum status lock(int file, int how, const char *path, struct error *err)
+{
+    if (!flock(file, how | LOCK_NB) || errno != EWOULDBLOCK)
+        return STATUS_OK;
+    return error_set(err, STATUS_RESOURCE,
+                     "%s: another balloon-sculpt is carving this sculpture; close it first", path);
+}
+
+enum status journal_is_left(const char *path, bool *left, struct error *err)
+{
+    char *name = journal_path(path, JOURNAL_SUFFIX);
+    if (!name)
+        return error_no_memory(err, "a journal");
+    enum status status = STATUS_OK;
+    int file = open(name, O_RDONLY | O_CLOEXEC);
+    *left = file >= 0;
+    if (file >= 0) {
+        status = lock(file, LOCK_SH, path, err);
+        close(file);
+    } else if (errno != ENOENT && errno != ENOTDIR) {
+        status = error_set_errno(err, name, "open");
+    }
+    free(name);
+    return status;
+}
+
+/* True when the name still leads to the file: its last owner may have removed it while we waited to open it. */
+static bool is_still(int file, const char *path)
+{
+    struct stat opened, named;
+    return !fstat(file, &opened) && !stat(path, &named) && opened.st_ino == named.st_ino &&
+           opened.st_dev == named.st_dev;
+}
+
+static enum status open_locked(struct journal *journal, const char *path, struct error *err)
+{
+    for (;;) {
+        journal->file = open(journal->path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+        if (journal->file < 0)
+            return error_set_errno(err, journal->path, "open");
+        enum status status = lock(journal->file, LOCK_EX, path, err);
+        if (status || is_still(journal->file, journal->path))
+            return status;
+        close(journal->file);
+    }
+}
+
+/* What was written in part is taken back, so that the next line begins where it must. */
+static enum status write_once(struct journal *journal, const char *text, size_t size, struct error *err)
+{
+    ssize_t written = write(journal->file, text, size);
+    if (written == (ssize_t)size) {
+        journal->size += written;
+        return STATUS_OK;
+    }
+    int reason = written < 0 ? errno : ENOSPC;
+    ftruncate(journal->file, journal->size);
+    errno = reason;
+    return error_set_errno(err, journal->path, "write");
+}
+
+enum status journal_append(struct journal *journal, const char *lines, struct error *err)
+{
+    char *text = NULL;
+    size_t size = 0;
+    uint32_t sum = journal->sum;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream)
+        return error_no_memory(err, "the journal");
+    while (*lines) {
+        const char *end = strchr(lines, '\n');
+        assert(end);
+        sum = journal_sum(sum, lines, (size_t)(end - lines));
+        fprintf(stream, "%.*s #%08" PRIx32 "\n", (int)(end - lines), lines, sum);
+        lines = end + 1;
+    }
+    bool failed = ferror(stream);
+    if (fclose(stream) || failed) {
+        free(text);
+        return error_no_memory(err, "the journal");
+    }
+    enum status status = size > 0 ? write_once(journal, text, size, err) : STATUS_OK;
+    free(text);
+    if (!status)
+        journal->sum = sum;
+    return status;
+}
+
+enum status journal_mark(struct journal *journal, struct error *err)
+{
+    return journal_append(journal, JOURNAL_MARK "\n", err);
+}
+
+static enum status copy_file(const struct bytes *file, const char *to, struct error *err)
+{
+    struct file_out *out;
+    enum status status = file_out_open(to, &out, err);
+    if (status)
+        return status;
+    fwrite(file->data, 1, file->size, file_out_stream(out));
+    return file_out_commit(out, err);
+}
+
+/* Keeps the file that the journal begins from: a save puts another in its place but leaves this one's other link. */
+static enum status keep_base(struct journal *journal, const char *path, struct journal_start *start,
+                             struct error *err)
+{
+    struct bytes file = {0};
+    enum status status = file_read(path, &file, err);
+    if (status)
+        return status;
+    start->hash = journal_hash(&file);
+    unlink(journal->base);
+    if (linkat(AT_FDCWD, path, AT_FDCWD, journal->base, AT_SYMLINK_FOLLOW))
+        status = copy_file(&file, journal->base, err);
+    bytes_clear(&file);
+    return status;
+}
+
+static enum status begin(struct journal *journal, const char *path, const struct octree *cube,
+                         struct error *err)
+{
+    struct journal_start start = {.is_cube = access(path, F_OK) != 0};
+    char first[JOURNAL_FIRST_SIZE + 1];
+    if (ftruncate(journal->file, 0))
+        return error_set_errno(err, journal->path, "write");
+    if (start.is_cube) {
+        assert(cube->root < OCTREE_MATERIALS);
+        start.depth = cube->depth;
+        start.material = cube->root;
+    } else {
+        enum status status = keep_base(journal, path, &start, err);
+        if (status)
+            return status;
+    }
+    journal_first_line(&start, first);
+    strcat(first, "\n");
+    return journal_append(journal, first, err);
+}
+
+/* A step ends where the program was killed: what comes now was not undone together with what was before. */
+static enum status go_on(struct journal *journal, const struct journal_text *text, struct error *err)
+{
+    journal->size = (off_t)text->end;
+    journal->sum = text->sum;
+    if (ftruncate(journal->file, journal->size))
+        return error_set_errno(err, journal->path, "write");
+    return text->operations > 0 ? journal_append(journal, "step\n", err) : STATUS_OK;
+}
+
+static enum status open_file(struct journal *journal, const char *path, const struct octree *cube,
+                             struct error *err)
+{
+    struct bytes file = {0};
+    struct journal_text text;
+    enum status status = open_locked(journal, path, err);
+    if (!status)
+        status = file_read(journal->path, &file, err);
+    if (status)
+        return status;
+    status = journal_text_read(&file, &text, err);
+    bytes_clear(&file);
+    if (status)
+        return err ? error_prefix(err, journal->path) : status;
+    if (text.begun)
+        return go_on(journal, &text, err);
+    status = begin(journal, path, cube, err);
+    if (status) {
+        unlink(journal->path);
+        unlink(journal->base);
+    }
+    return status;
+}
+
+enum status journal_open(const char *path, const struct octree *cube, struct journal **result,
+                         struct error *err)
+{
+    struct journal *journal = calloc(1, sizeof *journal);
+    if (!journal)
+        return error_no_memory(err, "the journal");
+    journal->file = -1;
+    journal->path = journal_path(path, JOURNAL_SUFFIX);
+    journal->base = journal_path(path, JOURNAL_BASE_SUFFIX);
+    enum status status = journal->path && journal->base ? open_file(journal, path, cube, err)
+                                                        : error_no_memory(err, "the journal");
+    if (status)
+        journal_close(journal, false);
+    else
+        *result = journal;
+    return status;
+}
+
+/* The journal goes first: without it the base means nothing, but not the other way round. */
+void journal_close(struct journal *journal, bool discard)
+{
+    if (!journal)
+        return;
+    if (discard) {
+        unlink(journal->path);
+        unlink(journal->base);
+    }
+    if (journal->file >= 0)
+        close(journal->file);
+    free(journal->path);
+    free(journal->base);
+    free(journal);
+}
+
+enum status journal_remove(const char *path, struct error *err)
+{
+    bool left;
+    char *name = journal_path(path, JOURNAL_SUFFIX), *base = journal_path(path, JOURNAL_BASE_SUFFIX);
+    enum status status = name && base ? journal_is_left(path, &left, err)
+                                      : error_no_memory(err, "the journal");
+    if (!status && left) {
+        if (unlink(name))
+            status = error_set_errno(err, name, "remove");
+        unlink(base);
+    }
+    free(name);
+    free(base);
+    return status;
+}
