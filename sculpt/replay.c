@@ -94,3 +94,24 @@ enum status chips_run(struct octree *tree, const struct chips *chips, struct his
     free(steps.items);
     return status;
 }
+
+enum status chips_keep(const struct chips *chips, struct chips *kept, struct error *err)
+{
+    struct steps steps = {0};
+    struct chips made = *chips;
+    enum status status = find_steps(chips, &steps, err);
+    made.items = status ? NULL : array_new(chips->count, sizeof *made.items);
+    made.capacity = chips->count;
+    made.count = 0;
+    if (!status && !made.items)
+        status = error_no_memory(err, "the script");
+    for (size_t i = 0; i < steps.done && !status; i++)
+        for (size_t k = steps.items[i].first; k < steps.items[i].end; k++)
+            made.items[made.count++] = chips->items[k];
+    free(steps.items);
+    if (status)
+        return status;
+    chips_clear(kept);
+    *kept = made;
+    return STATUS_OK;
+}

@@ -126,6 +126,10 @@ struct history;
 enum status chips_run(struct octree *tree, const struct chips *chips, struct history *history,
                       struct error *err);
 
+/* Makes *kept (valid; it is replaced) the same script without what it takes back and without steps, undo and redo:
+ * it makes an equal octree. Errors: STATUS_NO_MEMORY; then *kept is as it was. */
+enum status chips_keep(const struct chips *chips, struct chips *kept, struct error *err);
+
 /* What a line of a script means depends on lines before it: the material and the mirror. */
 struct chip_state {
     unsigned material, mirror; /* 1 and 0 at the beginning of a script */
