@@ -1,0 +1,117 @@
+/*
+ * Sculpting by hand, without a window: the sculpture, its tools, its history and its files. A window hands rays and
+ * keys in and draws what it finds here; whatever a hand does becomes operations of a chip script.
+ *
+ *     struct session session = {0};
+ *     if (session_open(&session, "fox.oct", 6, &err)) ...
+ *     session_aim(&session, origin, direction);                 the pointer moved
+ *     session_press(&session, &err); session_drag(...); session_release(...);
+ *     session_take_changes(&session, &regions);                 what to draw anew
+ *     session_undo(&session, &err);
+ *     session_clear(&session);
+ */
+#ifndef SCULPT_SESSION_H
+#define SCULPT_SESSION_H
+
+#include "common/file.h"
+#include "sculpt/history.h"
+#include "sculpt/journal.h"
+#include "sculpt/sculpt.h"
+
+#include <stdbool.h>
+
+enum session_tool {
+    TOOL_SPHERE,
+    TOOL_BOX,
+    TOOL_CYLINDER, /* its axis along the face that is hit */
+    TOOL_STROKE,   /* a sphere swept along the drag */
+    TOOL_CUT,      /* a dragged line takes away what lies to its right */
+    TOOL_SANDPAPER,
+    TOOL_HEAT,
+    TOOLS,
+};
+extern const char *const session_tool_names[TOOLS];
+
+struct session_ray {
+    double origin[3], direction[3]; /* direction of unit length */
+};
+
+struct session {
+    struct octree tree;
+    struct history history;
+    struct journal *journal;   /* NULL: none could be kept; then `warning` says why */
+    struct chip_state written; /* what the journal's lines so far leave set */
+    struct chips log;          /* all that was done since it was opened */
+    struct {
+        struct chip *items;
+        size_t count, capacity;
+    } step; /* operations of the step that is open; they become the journal's and the log's at its end */
+    struct bytes log_before; /* the chip log that the file had; empty: none */
+    bool log_lost;           /* no script describes what the sculpture began as */
+    char *path;              /* of the .oct */
+    bool unsaved;            /* changed since it was opened or saved */
+    char warning[ERROR_TEXT_SIZE];
+
+    enum session_tool tool;
+    bool fill;       /* puts material there instead of taking it away */
+    unsigned mirror; /* CHIP_MIRROR_ bits */
+    bool snap;       /* the brush's middle goes from cell to cell */
+    double radius;   /* of the brush, in units of the cube */
+    double depth;    /* of the brush's middle under the surface, in radii: -1 to 1 */
+    unsigned material;
+
+    bool aimed; /* the pointer is on the sculpture: */
+    struct octree_hit hit;
+    double middle[3], normal[3];     /* of the brush; out of the face that is hit */
+    struct session_ray ray, pressed; /* now, and where the button went down */
+    bool dragging;
+    double last[3]; /* end of the stroke so far */
+
+    struct octree_regions changed; /* since session_take_changes() */
+};
+
+enum { SESSION_HISTORY_BYTES = 256 << 20 };
+
+/* Opens path, or begins a full cube of this depth where there is no such file yet. Where a journal of a program that was
+ * killed is left, its work is taken up with `recover`, and forgotten without. Errors: those of octree_load(), and of the
+ * journal where another program has it open or its work cannot be taken up. On failure *session is empty. */
+enum status session_open(struct session *session, const char *path, unsigned depth, bool recover,
+                         struct error *err);
+
+/* Frees it; the journal is removed: what was not saved is not wanted. */
+void session_clear(struct session *session);
+
+/* Where the pointer is. During a drag the tool goes on from there. */
+void session_aim(struct session *session, const double origin[3], const double direction[3]);
+void session_aim_nowhere(struct session *session);
+
+/* The tool's button goes down, moves, goes up: one step for undo. Errors: STATUS_NO_MEMORY, STATUS_FILE (the
+ * journal); then the operation is taken back where that is possible. */
+enum status session_press(struct session *session, struct error *err);
+enum status session_drag(struct session *session, struct error *err);
+enum status session_release(struct session *session, struct error *err);
+
+/* False where there is nothing to undo or redo. */
+bool session_undo(struct session *session, struct error *err);
+bool session_redo(struct session *session, struct error *err);
+
+/* Brush: a step up or down, by a tenth; never below half a cell or above half the cube. */
+void session_resize_brush(struct session *session, int steps);
+void session_sink_brush(struct session *session, int steps);
+
+/* Saves to session->path, with the chip log, and a preview: a PNG's bytes, taken over, or NULL. Errors: STATUS_FILE,
+ * STATUS_NO_MEMORY; then the old file, the journal and the session are as they were. */
+enum status session_save(struct session *session, struct bytes *preview, struct error *err);
+
+/* The same under another name, which the session has from then on. */
+enum status session_save_as(struct session *session, const char *path, struct bytes *preview,
+                            struct error *err);
+
+/* Hands over, and forgets, where cells changed. */
+void session_take_changes(struct session *session, struct octree_regions *regions);
+
+/* The brush as line segments, in units of the cube: what the next press would touch, mirror images included. Returns how
+ * many there are, at most `most`. */
+size_t session_outline(const struct session *session, double segments[][2][3], size_t most);
+
+#endif
