@@ -1,0 +1,154 @@
+/* How fast chips, undo, smoothing and rays are, and what bounds each. */
+#include "bench.h"
+#include "common/random.h"
+#include "sculpt/history.h"
+#include "sculpt/sculpt.h"
+
+#include <math.h>
+
+/* One line of the table. */
+static void report(const char *what, const char *unit, double rate, double target, const char *bound)
+{
+    printf("%-40s %12.4g %-10s %9.4g   %s\n", what, rate, unit, target, bound);
+    fflush(stdout);
+}
+
+static void make(struct octree *tree, unsigned depth, unsigned material)
+{
+    struct error err = {0};
+    bench_check(octree_init(tree, depth, material, &err), &err);
+}
+
+/* Balls with centres on a ball's surface of radius 0.35 round the middle, as a hand moves over a sculpture. */
+static struct chip brush(enum chip_kind kind, double radius, uint64_t *seed)
+{
+    struct chip chip = {.kind = kind, .shape = CHIP_SPHERE};
+    double direction[3], length = 0;
+    while (!(length > 0.1 && length <= 1)) {
+        length = 0;
+        for (int k = 0; k < 3; k++) {
+            direction[k] = 2 * random_unit(seed) - 1;
+            length += direction[k] * direction[k];
+        }
+    }
+    for (int k = 0; k < 3; k++)
+        chip.value[k] = 0.5 + 0.35 * direction[k] / sqrt(length);
+    chip.value[3] = radius;
+    return chip;
+}
+
+/* Chips and fills in turn, so that there is always something to change. */
+static double chip_seconds(struct octree *tree, double radius, int count, struct history *history)
+{
+    uint64_t seed = 1;
+    struct error err = {0};
+    double start = bench_seconds();
+    for (int i = 0; i < count; i++) {
+        struct chip chip = brush(CHIP_CARVE, radius, &seed);
+        chip.material = (unsigned)i % 2;
+        if (history)
+            history_begin(history, tree);
+        bench_check(sculpt_chip(tree, &chip, &err), &err);
+        if (history)
+            history_end(history, tree, NULL);
+    }
+    return (bench_seconds() - start) / count;
+}
+
+static void bench_chips(unsigned depth, double cells, int count, double target, const char *bound)
+{
+    struct octree tree = {0};
+    struct history history;
+    char what[64];
+    const double radius = ldexp(cells, -(int)depth);
+    make(&tree, depth, 1);
+    double plain = chip_seconds(&tree, radius, count, NULL);
+    snprintf(what, sizeof what, "chips, %d a side, radius %g", 1 << depth, cells);
+    report(what, "a second", 1 / plain, target, bound);
+    octree_clear(&tree);
+
+    make(&tree, depth, 1);
+    history_init(&history, SIZE_MAX);
+    double recorded = chip_seconds(&tree, radius, count, &history);
+    snprintf(what, sizeof what, "the same, recorded for undo");
+    report(what, "a second", 1 / recorded, target, "the chip; the tape adds what it writes");
+    size_t steps = history.count;
+    double start = bench_seconds();
+    while (history_undo(&history, &tree, NULL))
+        continue;
+    double undo = (bench_seconds() - start) / (double)steps;
+    report("undo of these", "a second", 1 / undo, 1 / plain, "memory: a word read and written a change");
+    start = bench_seconds();
+    while (history_redo(&history, &tree, NULL))
+        continue;
+    report("redo of these", "a second", (double)steps / (bench_seconds() - start), 1 / plain,
+           "the same, forwards");
+    report("bytes kept a step", "bytes", (double)history.bytes / (double)steps, 0,
+           "8 a node that was written");
+    report("bytes a leaf", "bytes", (double)octree_measure(&tree).bytes / (double)octree_leaf_count(&tree),
+           10, "32 a block of 8 nodes, and room to grow");
+    history_clear(&history);
+    octree_clear(&tree);
+}
+
+static void bench_tool(enum chip_kind kind, unsigned depth, double cells, int count)
+{
+    uint64_t seed = 3;
+    struct octree tree = {0};
+    struct error err = {0};
+    char what[64];
+    make(&tree, depth, 0);
+    const struct chip ball = {.shape = CHIP_SPHERE, .material = 1, .value = {0.5, 0.5, 0.5, 0.35}};
+    bench_check(sculpt_chip(&tree, &ball, &err), &err);
+    double start = bench_seconds();
+    for (int i = 0; i < count; i++) {
+        const struct chip chip = brush(kind, ldexp(cells, -(int)depth), &seed);
+        bench_check(sculpt_chip(&tree, &chip, &err), &err);
+    }
+    snprintf(what, sizeof what, "%s, %d a side, radius %g", chip_kind_names[kind].name, 1 << depth, cells);
+    report(what, "a second", count / (bench_seconds() - start), 60, "rows of the tiles around the ball");
+    octree_clear(&tree);
+}
+
+/* From outside towards somewhere in the cube, over a carved ball. */
+static void bench_rays(unsigned depth, int count, double target)
+{
+    uint64_t seed = 2;
+    struct octree tree = {0};
+    struct error err = {0};
+    char what[64];
+    make(&tree, depth, 0);
+    const struct chip ball = {.shape = CHIP_SPHERE, .material = 1, .value = {0.5, 0.5, 0.5, 0.35}};
+    bench_check(sculpt_chip(&tree, &ball, &err), &err);
+    chip_seconds(&tree, ldexp(8, -(int)depth), 3000, NULL);
+    int hits = 0;
+    double start = bench_seconds();
+    for (int i = 0; i < count; i++) {
+        struct octree_hit hit;
+        double origin[3], direction[3];
+        const struct chip from = brush(CHIP_CARVE, 1, &seed);
+        for (int k = 0; k < 3; k++) {
+            origin[k] = 0.5 + 5 * (from.value[k] - 0.5);
+            direction[k] = 0.2 + 0.6 * random_unit(&seed) - origin[k];
+        }
+        hits += octree_ray(&tree, origin, direction, &hit);
+    }
+    snprintf(what, sizeof what, "rays, %d a side, %.0f %% hit", 1 << depth, 100.0 * hits / count);
+    report(what, "a second", count / (bench_seconds() - start), target,
+           "leaves on the way, one division each axis");
+    octree_clear(&tree);
+}
+
+int main(void)
+{
+    printf("%-40s %12s %-10s %9s   %s\n", "sculpt", "", "", "target", "bound by");
+    bench_chips(8, 8, 100000, 100000, "cells on the ball's surface: 8 to a call of its shape");
+    bench_chips(10, 32, 3000, 5000, "the same, with misses of the cache");
+    bench_tool(CHIP_SANDPAPER, 8, 8, 2000);
+    bench_tool(CHIP_SANDPAPER, 10, 32, 400);
+    bench_tool(CHIP_HEAT, 8, 8, 2000);
+    bench_tool(CHIP_HEAT, 10, 32, 400);
+    bench_rays(8, 1000000, 1.5e6);
+    bench_rays(10, 500000, 0);
+    return 0;
+}
