@@ -1,40 +1,9 @@
 #include "render/draw.h"
 
+#include "render/program.h"
 #include "render/shaders.h"
 
 #include <string.h>
-
-static enum status compile(const struct gl *gl, GLuint program, GLenum kind, const char *source,
-                           struct error *err)
-{
-    char log[512] = "";
-    GLint good = 0;
-    GLuint shader = gl->CreateShader(kind);
-    gl->ShaderSource(shader, 1, &source, NULL);
-    gl->CompileShader(shader);
-    gl->GetShaderiv(shader, GL_COMPILE_STATUS, &good);
-    gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
-    gl->AttachShader(program, shader);
-    gl->DeleteShader(shader); /* goes with the program */
-    return good ? STATUS_OK : error_set(err, STATUS_RESOURCE, "OpenGL cannot compile a shader: %s", log);
-}
-
-static enum status link_program(const struct gl *gl, const char *vertex, const char *fragment,
-                                GLuint *program, struct error *err)
-{
-    *program = gl->CreateProgram();
-    enum status status = compile(gl, *program, GL_VERTEX_SHADER, vertex, err);
-    if (!status)
-        status = compile(gl, *program, GL_FRAGMENT_SHADER, fragment, err);
-    if (status)
-        return status;
-    char log[512] = "";
-    GLint good = 0;
-    gl->LinkProgram(*program);
-    gl->GetProgramiv(*program, GL_LINK_STATUS, &good);
-    gl->GetProgramInfoLog(*program, sizeof log, NULL, log);
-    return good ? STATUS_OK : error_set(err, STATUS_RESOURCE, "OpenGL cannot link a shader: %s", log);
-}
 
 static void describe(const struct gl *gl, GLuint location, int size, GLenum type, size_t offset)
 {
@@ -64,11 +33,11 @@ static void describe_vertices(struct draw *draw, const struct gl *gl)
 
 enum status draw_open(struct draw *draw, const struct gl *gl, struct error *err)
 {
-    enum status status = link_program(gl, shader_skin_vertex, shader_skin_fragment, &draw->skin, err);
+    enum status status = program_link(gl, shader_skin_vertex, shader_skin_fragment, &draw->skin, err);
     if (!status)
-        status = link_program(gl, shader_backdrop_vertex, shader_backdrop_fragment, &draw->backdrop, err);
+        status = program_link(gl, shader_backdrop_vertex, shader_backdrop_fragment, &draw->backdrop, err);
     if (!status)
-        status = link_program(gl, shader_shadow_vertex, shader_shadow_fragment, &draw->shadow, err);
+        status = program_link(gl, shader_shadow_vertex, shader_shadow_fragment, &draw->shadow, err);
     if (status) {
         draw_close(draw, gl);
         return status;
@@ -128,14 +97,11 @@ static void draw_shadow(const struct draw *draw, const struct gl *gl, const floa
     gl->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
-/* The depth of the whole framebuffer, or of the scissor's part, begins anew. Opaque triangles hide by
- * depth; translucent ones are hidden by those, and lie over one another in their order. The shader gives the
+/* Opaque triangles hide by depth; translucent ones are hidden by those, and lie over one another in their order. The shader gives the
  * light to add and the share of each colour to keep of what lies behind. */
 static void draw_skins(const struct draw *draw, const struct gl *gl, const float projection[16],
                        const float eye[3], const struct geometry *g)
 {
-    gl->DepthMask(GL_TRUE);
-    gl->Clear(GL_DEPTH_BUFFER_BIT);
     gl->Enable(GL_DEPTH_TEST);
     gl->Disable(GL_BLEND);
     gl->UseProgram(draw->skin);
@@ -154,17 +120,25 @@ static void draw_skins(const struct draw *draw, const struct gl *gl, const float
     gl->DepthMask(GL_TRUE);
 }
 
-void draw_eye(const struct draw *draw, const struct gl *gl, const struct render_view *view,
-              const struct camera_eye *eye, const struct geometry *geometry, int below, bool skins)
+void draw_behind(const struct draw *draw, const struct gl *gl, const struct render_view *view,
+                 const struct camera_eye *eye, const struct geometry *geometry, int below)
 {
     float projection[16];
-    const float at[3] = {(float)eye->offset, 0, 0};
     camera_projection(eye, geometry->nearest, geometry->farthest, projection);
     gl->Viewport(eye->left, -below, eye->width, view->height);
     gl->Enable(GL_FRAMEBUFFER_SRGB);
     draw_backdrop(draw, gl);
     if (geometry->shadow.visible)
         draw_shadow(draw, gl, projection, &geometry->shadow);
-    if (skins)
-        draw_skins(draw, gl, projection, at, geometry);
+    gl->DepthMask(GL_TRUE);
+    gl->Clear(GL_DEPTH_BUFFER_BIT);
+}
+
+void draw_eye(const struct draw *draw, const struct gl *gl, const struct camera_eye *eye,
+              const struct geometry *geometry)
+{
+    float projection[16];
+    const float at[3] = {(float)eye->offset, 0, 0};
+    camera_projection(eye, geometry->nearest, geometry->farthest, projection);
+    draw_skins(draw, gl, projection, at, geometry);
 }

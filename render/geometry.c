@@ -278,8 +278,20 @@ static enum status order_triangles(struct geometry *g, bool sorted, struct error
     return STATUS_OK;
 }
 
+/* Points of what others draw, so that the projection and the box in sight hold it too. */
+static void see_points(struct geometry *g, const struct camera_space *space, const double (*points)[3],
+                       size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        double at[3];
+        camera_to_space(space, points[i], at);
+        see_corner(g, (const float[3]){(float)at[0], (float)at[1], (float)at[2]});
+    }
+}
+
 enum status geometry_build(struct geometry *g, const struct render_view *view,
-                           const struct render_skin *skins, size_t skin_count, struct error *err)
+                           const struct render_skin *skins, size_t skin_count, const double (*others)[3],
+                           size_t other_count, struct error *err)
 {
     struct camera_space space;
     camera_space_of(&view->camera, &space);
@@ -296,6 +308,7 @@ enum status geometry_build(struct geometry *g, const struct render_view *view,
         if (status)
             return status;
     }
+    see_points(g, &space, others, other_count);
     g->shadow.visible = false;
     if (view->floor)
         geometry_cast_shadow(&g->shadow, &space, view->floor_height, skins, skin_count);

@@ -56,9 +56,11 @@ struct geometry {
     struct geometry_shadow shadow;
 };
 
-/* Errors: STATUS_RANGE naming the skin and element, STATUS_NO_MEMORY. `view` has been checked. */
+/* `view` has been checked. `others` are points of the scene that shall be in sight too (low .. farthest): those of
+ * what is drawn by others. Errors: STATUS_RANGE naming the skin and element, STATUS_NO_MEMORY. */
 enum status geometry_build(struct geometry *geometry, const struct render_view *view,
-                           const struct render_skin *skins, size_t skin_count, struct error *err);
+                           const struct render_skin *skins, size_t skin_count, const double (*others)[3],
+                           size_t other_count, struct error *err);
 void geometry_clear(struct geometry *geometry);
 
 /* Sorts by nearness, farthest first; spare has room for as many. Equal ones keep their order. */

@@ -48,14 +48,18 @@
     X(GetShaderiv, GETSHADERIV)                                       \
     X(GetUniformLocation, GETUNIFORMLOCATION)                         \
     X(LinkProgram, LINKPROGRAM)                                       \
+    X(MultiDrawElements, MULTIDRAWELEMENTS)                           \
     X(PixelStorei, PIXELSTOREI)                                       \
     X(ReadPixels, READPIXELS)                                         \
     X(RenderbufferStorageMultisample, RENDERBUFFERSTORAGEMULTISAMPLE) \
     X(Scissor, SCISSOR)                                               \
     X(ShaderSource, SHADERSOURCE)                                     \
+    X(Uniform1f, UNIFORM1F)                                           \
+    X(Uniform2f, UNIFORM2F)                                           \
     X(Uniform3fv, UNIFORM3FV)                                         \
     X(UniformMatrix4fv, UNIFORMMATRIX4FV)                             \
     X(UseProgram, USEPROGRAM)                                         \
+    X(VertexAttribIPointer, VERTEXATTRIBIPOINTER)                     \
     X(VertexAttribPointer, VERTEXATTRIBPOINTER)                       \
     X(Viewport, VIEWPORT)
 

@@ -1,30 +1,8 @@
-/* Just letters enough to write a time. */
+/* Text on a finished picture. */
+#include "render/font.h"
 #include "render/sheet.h"
 
 #include <string.h>
-
-enum { LETTER_WIDTH = 5 };
-
-static const struct letter {
-    char code;
-    const char *rows[LABEL_HEIGHT];
-} letters[] = {
-    {'0', {" ### ", "#   #", "#   #", "#   #", "#   #", "#   #", " ### "}},
-    {'1', {"  #  ", " ##  ", "  #  ", "  #  ", "  #  ", "  #  ", " ### "}},
-    {'2', {" ### ", "#   #", "    #", "   # ", "  #  ", " #   ", "#####"}},
-    {'3', {" ### ", "#   #", "    #", "  ## ", "    #", "#   #", " ### "}},
-    {'4', {"   # ", "  ## ", " # # ", "#  # ", "#####", "   # ", "   # "}},
-    {'5', {"#####", "#    ", "#### ", "    #", "    #", "#   #", " ### "}},
-    {'6', {" ### ", "#    ", "#    ", "#### ", "#   #", "#   #", " ### "}},
-    {'7', {"#####", "    #", "   # ", "   # ", "  #  ", "  #  ", "  #  "}},
-    {'8', {" ### ", "#   #", "#   #", " ### ", "#   #", "#   #", " ### "}},
-    {'9', {" ### ", "#   #", "#   #", " ####", "    #", "    #", " ### "}},
-    {'.', {"     ", "     ", "     ", "     ", "     ", "     ", "  #  "}},
-    {'-', {"     ", "     ", "     ", " ### ", "     ", "     ", "     "}},
-    {'+', {"     ", "  #  ", "  #  ", "#####", "  #  ", "  #  ", "     "}},
-    {'e', {"     ", "     ", " ### ", "#   #", "#####", "#    ", " ### "}},
-    {'s', {"     ", "     ", " ####", "#    ", " ### ", "    #", "#### "}},
-};
 
 static void fill(struct image *image, int x, int y, int side)
 {
@@ -33,18 +11,12 @@ static void fill(struct image *image, int x, int y, int side)
             memset(image->rgb + 3 * ((size_t)row * (size_t)image->width + (size_t)column), 0x38, 3);
 }
 
-static void draw_letter(struct image *image, int x, int y, int scale, const struct letter *letter)
-{
-    for (int row = 0; row < LABEL_HEIGHT; row++)
-        for (int column = 0; column < LETTER_WIDTH; column++)
-            if (letter->rows[row][column] == '#')
-                fill(image, x + column * scale, y + row * scale, scale);
-}
-
 void label_draw(struct image *image, int x, int y, int scale, const char *text)
 {
-    for (; *text; text++, x += (LETTER_WIDTH + 1) * scale)
-        for (size_t i = 0; i < sizeof letters / sizeof *letters; i++)
-            if (letters[i].code == *text)
-                draw_letter(image, x, y, scale, &letters[i]);
+    for (; *text; text++, x += (FONT_WIDTH + 1) * scale) {
+        uint64_t dots = font_dots(*text);
+        for (int i = 0; i < FONT_WIDTH * FONT_HEIGHT; i++)
+            if (dots >> i & 1)
+                fill(image, x + i % FONT_WIDTH * scale, y + i / FONT_WIDTH * scale, scale);
+    }
 }

@@ -73,6 +73,7 @@ struct render_scene {
     size_t skin_count;
     const struct render_solid *solid; /* made with the same struct render; or NULL */
     bool cell_edges;                  /* the solid's cells have darker edges */
+    bool smooth_light;                /* its faces are lit by their normals, not by their sides */
     const struct render_line *lines;
     size_t line_count;
     const struct render_text *texts;
@@ -116,6 +117,10 @@ void render_close(struct render *render);
  * program's name in it. Errors: those of render_open(), render_draw() and image_save_png(), with the path in front. */
 enum status render_still(const struct render_skin *skin, const char *path, const char *software,
                          struct error *err);
+
+/* The same picture in another size, as the bytes of a PNG file; *png is overwritten, free it with bytes_clear(). */
+enum status render_still_png(const struct render_skin *skin, int width, int height, const char *software,
+                             struct bytes *png, struct error *err);
 
 /* Sets view->camera so that the box lower .. upper fits the picture (view's width, height and stereo are
  * read) with `margin`, a fraction of the half picture, left free around it: 0 for none, below 1. `direction`

@@ -1,5 +1,7 @@
 #include "render/sheet.h"
 
+#include "render/font.h"
+
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -123,7 +125,7 @@ static void draw_tile(struct image *out, const struct sheet_moment *moment, int 
     char text[64];
     snprintf(text, sizeof text, fabs(moment->time) < 1e6 ? "%.*f s" : "%.*e s", decimals, moment->time);
     int scale = tile->height < 120 ? 1 : 2;
-    label_draw(out, left + 4 * scale, top + tile->height - (LABEL_HEIGHT + 4) * scale, scale, text);
+    label_draw(out, left + 4 * scale, top + tile->height - (FONT_LINE + 4) * scale, scale, text);
 }
 
 enum status sheet_draw(const struct sheet *sheet, struct image *out, struct error *err)

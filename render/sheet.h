@@ -40,11 +40,8 @@ int sheet_choose(const struct sheet *sheet, int chosen[SHEET_MOMENTS]);
 
 void sheet_clear(struct sheet *sheet);
 
-/* Writes text (digits, " .+-es"; others are left blank) in dark grey with its upper left corner at x, y; each
- * dot of the letters is scale x scale pixels. What lies outside the image is left out. label.c */
+/* Writes a line of text in dark grey with its upper left corner at x, y; each dot of the letters (font.h) is
+ * scale x scale pixels. What lies outside the image is left out. label.c */
 void label_draw(struct image *image, int x, int y, int scale, const char *text);
-
-/* The height of a line of text in dots. */
-enum { LABEL_HEIGHT = 7 };
 
 #endif

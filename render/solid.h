@@ -23,6 +23,7 @@ struct render_face {
     uint16_t size[2];   /* in cells: along y, z for sides of x; along z, x for y; along x, y for z */
     uint8_t side;       /* where it looks: 0 -x, 1 +x, 2 -y, 3 +y, 4 -z, 5 +z */
     uint8_t colour[3];  /* red, green, blue (sRGB) */
+    int8_t normal[3];   /* of the smooth surface there, any length; 0, 0, 0: that of the side */
 };
 
 /* An empty solid whose cell 0, 0, 0 begins at `origin`, each cell `cell` wide. Errors: STATUS_RANGE for a cell

@@ -17,15 +17,13 @@ static void find_bounds(const struct mesh *mesh, double low[3], double high[3])
     }
 }
 
-enum status render_still(const struct render_skin *skin, const char *path, const char *software,
-                         struct error *err)
+static enum status draw_still(const struct render_skin *skin, int width, int height, struct image *image,
+                              struct error *err)
 {
     static const double from[3] = {0.55, 0.45, 1};
     struct render_view view = {
-        .width = STILL_WIDTH, .height = STILL_HEIGHT, .sorted = true, .smooth_edges = true, .floor = true};
-    const struct image_text text = {"Software", software};
+        .width = width, .height = height, .sorted = true, .smooth_edges = true, .floor = true};
     struct render *render = NULL;
-    struct image image = {0};
     double low[3], high[3];
     find_bounds(skin->mesh, low, high);
     view.floor_height = low[1];
@@ -33,12 +31,33 @@ enum status render_still(const struct render_skin *skin, const char *path, const
     if (!status)
         status = render_open(view.width, view.height, &render, err);
     if (!status)
-        status = render_draw(render, &view, skin, 1, &image, err);
+        status = render_draw(render, &view, skin, 1, image, err);
+    render_close(render);
+    return status;
+}
+
+enum status render_still(const struct render_skin *skin, const char *path, const char *software,
+                         struct error *err)
+{
+    const struct image_text text = {"Software", software};
+    struct image image = {0};
+    enum status status = draw_still(skin, STILL_WIDTH, STILL_HEIGHT, &image, err);
     if (status)
         error_prefix(err, path);
     else
         status = image_save_png(&image, path, &text, 1, err);
     image_clear(&image);
-    render_close(render);
+    return status;
+}
+
+enum status render_still_png(const struct render_skin *skin, int width, int height, const char *software,
+                             struct bytes *png, struct error *err)
+{
+    const struct image_text text = {"Software", software};
+    struct image image = {0};
+    enum status status = draw_still(skin, width, height, &image, err);
+    if (!status)
+        status = image_encode_png(&image, &text, 1, png, err);
+    image_clear(&image);
     return status;
 }

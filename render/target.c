@@ -102,6 +102,16 @@ enum status target_read(struct target *target, const struct gl *gl, struct image
     return STATUS_OK;
 }
 
+/* The bytes are copied as they are: a window shows sRGB whether or not it knows. */
+void target_show(const struct target *target, const struct gl *gl, int below, int rows)
+{
+    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, target->resolved ? target->resolved : target->drawn);
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    gl->Disable(GL_FRAMEBUFFER_SRGB);
+    gl->BlitFramebuffer(0, 0, target->width, rows, 0, below, target->width, below + rows, GL_COLOR_BUFFER_BIT,
+                        GL_NEAREST);
+}
+
 void target_clear(struct target *target, const struct gl *gl)
 {
     const GLuint framebuffers[] = {target->drawn, target->resolved};

@@ -31,6 +31,9 @@ void target_resolve(const struct target *target, const struct gl *gl, const int 
 enum status target_read(struct target *target, const struct gl *gl, struct image *out, int below, int rows,
                         struct error *err);
 
+/* The same, to the window. */
+void target_show(const struct target *target, const struct gl *gl, int below, int rows);
+
 void target_clear(struct target *target, const struct gl *gl);
 
 #endif

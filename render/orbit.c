@@ -1,0 +1,113 @@
+#include "render/orbit.h"
+
+#include "render/camera.h"
+
+#include "common/vec3.h"
+
+static const double degrees_per_pixel = 0.5;
+static const double nearer_per_step = 0.9;
+static const double eye_ratio = 1.0 / 30; /* the usual rule for comfortable pairs */
+
+static double radians(double deg)
+{
+    return deg * (M_PI / 180);
+}
+
+struct orbit orbit_start(void)
+{
+    return (struct orbit){.target = {0.5, 0.5, 0.5},
+                          .distance = 3.6,
+                          .azimuth_deg = 30,
+                          .elevation_deg = 25,
+                          .field_of_view_deg = 30};
+}
+
+/* x right, y up, z towards the eye, also where it looks straight down. */
+static void find_axes(const struct orbit *orbit, double axis[3][3])
+{
+    double a = radians(orbit->azimuth_deg), e = radians(orbit->elevation_deg);
+    const double axes[3][3] = {
+        {cos(a), 0, -sin(a)},
+        {-sin(e) * sin(a), cos(e), -sin(e) * cos(a)},
+        {cos(e) * sin(a), sin(e), cos(e) * cos(a)},
+    };
+    for (int i = 0; i < 9; i++)
+        axis[i / 3][i % 3] = axes[i / 3][i % 3];
+}
+
+void orbit_turn(struct orbit *orbit, double dx, double dy)
+{
+    orbit->azimuth_deg = fmod(orbit->azimuth_deg - degrees_per_pixel * dx, 360);
+    orbit->elevation_deg = fmin(fmax(orbit->elevation_deg + degrees_per_pixel * dy, -90), 90);
+}
+
+void orbit_pan(struct orbit *orbit, const struct render_view *view, double dx, double dy)
+{
+    double axis[3][3];
+    double pixel = 2 * orbit->distance * tan(radians(orbit->field_of_view_deg) / 2) / view->height;
+    find_axes(orbit, axis);
+    for (int i = 0; i < 3; i++)
+        orbit->target[i] += pixel * (dy * axis[1][i] - dx * axis[0][i]);
+}
+
+void orbit_zoom(struct orbit *orbit, double steps)
+{
+    orbit->distance = fmin(fmax(orbit->distance * pow(nearer_per_step, steps), 1e-6), 1e6);
+}
+
+void orbit_look(struct orbit *orbit, enum orbit_side side)
+{
+    static const double angle[][2] = {
+        [ORBIT_FRONT] = {0, 0},  [ORBIT_BACK] = {180, 0}, [ORBIT_RIGHT] = {90, 0},
+        [ORBIT_LEFT] = {-90, 0}, [ORBIT_TOP] = {0, 90},   [ORBIT_BOTTOM] = {0, -90}};
+    orbit->azimuth_deg = angle[side][0];
+    orbit->elevation_deg = angle[side][1];
+}
+
+void orbit_frame(struct orbit *orbit, const struct render_view *view, const double lower[3],
+                 const double upper[3])
+{
+    double radius = vec3_distance(lower, upper) / 2;
+    if (!(radius > 0) || !isfinite(radius))
+        return;
+    int pictures = view->stereo == RENDER_MONO ? 1 : 2;
+    double half = tan(radians(orbit->field_of_view_deg) / 2);
+    double narrower = fmin(1, (double)view->width / pictures / view->height);
+    for (int i = 0; i < 3; i++)
+        orbit->target[i] = lower[i] / 2 + upper[i] / 2;
+    orbit->distance = radius / sin(atan(half * narrower));
+}
+
+void orbit_camera(const struct orbit *orbit, struct render_camera *camera)
+{
+    double axis[3][3];
+    find_axes(orbit, axis);
+    *camera = (struct render_camera){.field_of_view_deg = orbit->field_of_view_deg,
+                                     .eye_distance = orbit->distance * eye_ratio,
+                                     .screen_distance = orbit->distance};
+    for (int i = 0; i < 3; i++) {
+        camera->target[i] = orbit->target[i];
+        camera->eye[i] = orbit->target[i] + orbit->distance * axis[2][i];
+        camera->up[i] = axis[1][i];
+    }
+}
+
+bool orbit_ray(const struct render_view *view, double x, double y, double origin[3], double direction[3])
+{
+    struct camera_eye eyes[2];
+    struct camera_space space;
+    struct error ignored;
+    if (camera_check(view, &ignored))
+        return false;
+    camera_space_of(&view->camera, &space);
+    int count = camera_eyes(view, eyes);
+    const struct camera_eye *eye = &eyes[count == 2 && x >= eyes[1].left];
+    double across = (2 * (x - eye->left) / eye->width - 1) * eye->half_width[0] + eye->shear;
+    double up = (1 - 2 * y / view->height) * eye->half_width[1];
+    double length = sqrt(across * across + up * up + 1);
+    for (int i = 0; i < 3; i++) {
+        origin[i] = space.origin[i] + space.axis[0][i] * eye->offset / space.scale;
+        direction[i] = (across * space.axis[0][i] + up * space.axis[1][i] - space.axis[2][i]) / length;
+    }
+    return true;
+}
