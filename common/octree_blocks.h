@@ -16,8 +16,16 @@ static inline size_t node_children(octree_node node)
     return 8 * (size_t)(node & ~OCTREE_SPLIT);
 }
 
+/* More room on a tape; false when there can be none: then the tape is lost. */
+bool octree_tape_grow(struct octree_tape *tape);
+
 /* Records what was at a place of tree->blocks, just before something else is written there. */
-void octree_tape_note(struct octree_tape *tape, size_t at, octree_node before);
+static inline void octree_tape_note(struct octree_tape *tape, size_t at, octree_node before)
+{
+    if (tape->count == tape->capacity && !octree_tape_grow(tape))
+        return;
+    tape->items[tape->count++] = (struct octree_write){(uint32_t)at, before};
+}
 
 /* Records that something changed in a cube of cells. */
 void octree_tape_region(struct octree_tape *tape, const int corner[3], int side);

@@ -24,12 +24,23 @@ static inline void note_change(struct edit *edit, const double corner[3], double
 static octree_node edit_node(struct edit *edit, octree_node node, const double corner[3], double side,
                              unsigned level);
 
-/* The node that takes the place of child i of a cube, when its eight children are covered so. `level` is the
+/* The children that a shape may cover something of, as a set of bits; and the first of such a set. */
+static inline unsigned touched(struct octree_cover cover)
+{
+    return ~cover.outside & 0xff;
+}
+
+static inline int first_of(unsigned children)
+{
+    return __builtin_ctz(children);
+}
+
+/* The node that takes the place of child i of a cube, which is one of those touched. `level` is the
  * number of halvings that are left to the child. */
 static inline octree_node edit_child(struct edit *edit, struct octree_cover cover, octree_node child, int i,
                                      const double corner[3], double side, unsigned level)
 {
-    if (cover.outside >> i & 1 || child == edit->material || edit->failed)
+    if (child == edit->material || edit->failed)
         return child;
     const double at[3] = {corner[0] + (i & 1 ? side : 0), corner[1] + (i & 2 ? side : 0),
                           corner[2] + (i & 4 ? side : 0)};
@@ -48,7 +59,9 @@ static octree_node edit_leaf(struct edit *edit, struct octree_cover cover, octre
 {
     octree_node children[8], node;
     for (int i = 0; i < 8; i++)
-        children[i] = edit_child(edit, cover, leaf, i, corner, half, level);
+        children[i] = leaf;
+    for (unsigned left = touched(cover); left != 0; left &= left - 1)
+        children[first_of(left)] = edit_child(edit, cover, leaf, first_of(left), corner, half, level);
     if (octree_join(edit->tree, children, &node))
         return node;
     edit->failed = true;
@@ -68,11 +81,12 @@ static octree_node edit_cells(struct edit *edit, unsigned inside, octree_node no
         note_change(edit, corner, side);
     if (node_is_split(node)) {
         octree_node *cell = edit->tree->blocks + node_children(node);
-        for (int i = 0; i < 8 && edit->tape; i++)
-            if (inside >> i & 1 && cell[i] != edit->material)
-                octree_tape_note(edit->tape, node_children(node) + i, cell[i]);
-        for (int i = 0; i < 8; i++)
-            cell[i] = inside >> i & 1 ? edit->material : cell[i];
+        if (edit->tape)
+            for (unsigned left = inside; left != 0; left &= left - 1)
+                node_write(edit->tree, node_children(node) + first_of(left), edit->material);
+        else
+            for (int i = 0; i < 8; i++)
+                cell[i] = inside >> i & 1 ? edit->material : cell[i];
         return octree_merge(edit->tree, node);
     }
     for (int i = 0; i < 8; i++)
@@ -93,10 +107,11 @@ static octree_node edit_node(struct edit *edit, octree_node node, const double c
         return edit_cells(edit, cover.inside, node, corner, side);
     if (!node_is_split(node))
         return edit_leaf(edit, cover, node, corner, half, level);
-    for (int i = 0; i < 8; i++) {
-        octree_node child = edit->tree->blocks[node_children(node) + i];
-        child = edit_child(edit, cover, child, i, corner, half, level);
-        node_write(edit->tree, node_children(node) + i, child); /* blocks may have moved meanwhile */
+    for (unsigned left = touched(cover); left != 0; left &= left - 1) {
+        size_t at = node_children(node) + first_of(left);
+        octree_node child = edit->tree->blocks[at];
+        child = edit_child(edit, cover, child, first_of(left), corner, half, level);
+        node_write(edit->tree, at, child); /* blocks may have moved meanwhile */
     }
     return octree_merge(edit->tree, node);
 }
@@ -121,7 +136,8 @@ enum status octree_apply(struct octree *tree, octree_shape *covers, const void *
     struct octree_cover cover = covers(shape, corner, 1, tree->depth == 0);
     if (tree->depth == 0)
         cover.outside = ~cover.inside;
-    tree->root = edit_child(&edit, cover, tree->root, 0, corner, 1, tree->depth);
+    if (touched(cover) & 1)
+        tree->root = edit_child(&edit, cover, tree->root, 0, corner, 1, tree->depth);
     if (tree->tape && edit.high[0] > 0)
         note_region(&edit);
     return edit.failed ? error_no_memory(err, "the octree") : STATUS_OK;

@@ -31,13 +31,15 @@ void octree_tape_end(struct octree_tape *tape, struct octree *tree)
     tree->tape = NULL;
 }
 
-void octree_tape_note(struct octree_tape *tape, size_t at, octree_node before)
+bool octree_tape_grow(struct octree_tape *tape)
 {
-    if (tape->lost || tape->count == tape->limit || !ARRAY_RESERVE(tape, 1)) {
+    if (tape->lost || tape->count >= tape->limit || !ARRAY_RESERVE(tape, 1)) {
         tape->lost = true;
-        return;
+        return false;
     }
-    tape->items[tape->count++] = (struct octree_write){(uint32_t)at, before};
+    if (tape->capacity > tape->limit)
+        tape->capacity = tape->limit;
+    return true;
 }
 
 void octree_tape_region(struct octree_tape *tape, const int corner[3], int side)

@@ -40,6 +40,22 @@ static inline void add_up(const double x[2], const double y[2], const double z[2
         sum[i] = x[i & 1] + y[i >> 1 & 1] + z[i >> 2];
 }
 
+/* Two numbers at a time, and two sets of cubes: what every machine that this runs on can do at once. */
+typedef double pair __attribute__((vector_size(16)));
+typedef int64_t pair_of_sets __attribute__((vector_size(16)));
+
+/* The set of cubes whose sum, as add_up() has it, is at most the limit. */
+static inline unsigned at_most(const double x[2], const double y[2], const double z[2], double limit)
+{
+    const pair xs = {x[0], x[1]}, limits = {limit, limit};
+    pair_of_sets set = {0, 0};
+    for (int i = 0; i < 4; i++) {
+        const pair ys = {y[i & 1], y[i & 1]}, zs = {z[i >> 1], z[i >> 1]};
+        set |= (xs + ys + zs <= limits) & (pair_of_sets){1 << 2 * i, 2 << 2 * i};
+    }
+    return (unsigned)(set[0] | set[1]);
+}
+
 /* Half-open, so that boxes side by side share no cell even where their border runs through centres. */
 static struct octree_cover box_covers(const void *context, const double corner[3], double side, bool cells)
 {
@@ -64,7 +80,7 @@ static struct octree_cover box_covers(const void *context, const double corner[3
 static struct octree_cover ball_covers(const void *context, const double corner[3], double side, bool cells)
 {
     const struct shape *shape = context;
-    double nearest[3][2], farthest[3][2], sum[8];
+    double nearest[3][2], farthest[3][2];
     for (int k = 0; k < 3; k++) {
         double first[2], last[2];
         centres(shape, corner, side, k, first, last);
@@ -76,14 +92,9 @@ static struct octree_cover ball_covers(const void *context, const double corner[
         }
     }
     struct octree_cover cover = {0};
-    add_up(farthest[0], farthest[1], farthest[2], sum);
-    for (int i = 0; i < 8; i++)
-        cover.inside |= (unsigned)(sum[i] <= shape->limit) << i;
-    if (cells)
-        return cover;
-    add_up(nearest[0], nearest[1], nearest[2], sum);
-    for (int i = 0; i < 8; i++)
-        cover.outside |= (unsigned)(sum[i] > shape->limit) << i;
+    cover.inside = at_most(farthest[0], farthest[1], farthest[2], shape->limit);
+    if (!cells)
+        cover.outside = ~at_most(nearest[0], nearest[1], nearest[2], shape->limit) & 0xff;
     return cover;
 }
 
