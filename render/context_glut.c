@@ -282,7 +282,7 @@ enum status window_screenshot(struct window *window, struct image *image, struct
         status = error_no_memory(err, "the picture of the window");
     if (status)
         return status;
-    window_use(window);
+    glutSetWindow(window->id);
     if (window->events->draw)
         window->events->draw(window->self);
     window->gl.BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
@@ -294,9 +294,28 @@ enum status window_screenshot(struct window *window, struct image *image, struct
     return STATUS_OK;
 }
 
-void window_use(struct window *window)
+/* GLX, and so freeglut, believe that the window's context is current still and would do nothing: it is let go
+ * and taken again. The types are those of glx.h, which would bring all of X with it. */
+static void make_current_anew(void)
+{
+    void *(*display_of)(void) = (void *(*)(void))window_function("glXGetCurrentDisplay");
+    unsigned long (*drawable_of)(void) = (unsigned long (*)(void))window_function("glXGetCurrentDrawable");
+    void *(*context_of)(void) = (void *(*)(void))window_function("glXGetCurrentContext");
+    int (*make_current)(void *, unsigned long,
+                        void *) = (int (*)(void *, unsigned long, void *))window_function("glXMakeCurrent");
+    if (!display_of || !drawable_of || !context_of || !make_current || !display_of())
+        return; /* no GLX: nothing that could be confused */
+    void *display = display_of(), *context = context_of();
+    unsigned long drawable = drawable_of();
+    make_current(display, 0, NULL);
+    make_current(display, drawable, context);
+}
+
+void window_use(struct window *window, bool anew)
 {
     glutSetWindow(window->id);
+    if (anew)
+        make_current_anew();
 }
 
 void (*window_function(const char *name))(void)

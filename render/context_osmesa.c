@@ -9,6 +9,9 @@ struct context {
     unsigned char pixel[4]; /* OSMesa insists on a picture of its own */
 };
 
+/* OSMesaGetCurrentContext() also gives those of others: OSMesa and the GLX of windows share what is current. */
+static _Thread_local bool in_use;
+
 enum status context_open(struct context **result, struct error *err)
 {
     const int wanted[] = {OSMESA_FORMAT,
@@ -44,7 +47,17 @@ enum status context_use(struct context *context, struct error *err)
         return STATUS_OK;
     if (!OSMesaMakeCurrent(context->osmesa, context->pixel, GL_UNSIGNED_BYTE, 1, 1))
         return error_set(err, STATUS_RESOURCE, "OSMesa cannot make its context current");
+    in_use = true;
     return STATUS_OK;
+}
+
+bool context_leave(void)
+{
+    bool was_in_use = in_use;
+    if (in_use)
+        OSMesaMakeCurrent(NULL, NULL, GL_UNSIGNED_BYTE, 0, 0);
+    in_use = false;
+    return was_in_use;
 }
 
 void context_close(struct context *context)
@@ -52,7 +65,7 @@ void context_close(struct context *context)
     if (!context)
         return;
     if (OSMesaGetCurrentContext() == context->osmesa)
-        OSMesaMakeCurrent(NULL, NULL, GL_UNSIGNED_BYTE, 0, 0);
+        context_leave();
     OSMesaDestroyContext(context->osmesa);
     free(context);
 }

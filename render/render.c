@@ -11,7 +11,7 @@ enum status render_use(struct render *render, struct error *err)
 {
     if (!render->window)
         return context_use(render->context, err);
-    window_use(render->window);
+    window_use(render->window, context_leave());
     return STATUS_OK;
 }
 
@@ -54,7 +54,7 @@ enum status render_open_window(struct window *window, struct render **result, st
     if (!render)
         return error_no_memory(err, "the renderer");
     render->window = window;
-    window_use(window);
+    window_use(window, context_leave());
     enum status status = open_parts(render, window_function, err);
     if (status)
         render_close(render);

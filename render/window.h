@@ -91,8 +91,9 @@ void window_size(const struct window *window, int *width, int *height);
 /* Calls draw() and copies the window's picture into *image, which is resized. Errors: STATUS_NO_MEMORY. */
 enum status window_screenshot(struct window *window, struct image *image, struct error *err);
 
-/* Inside of render: makes the window's context current, and finds OpenGL's functions there. */
-void window_use(struct window *window);
+/* Inside of render: makes the window's context current, anew where an off-screen one has been in between, and finds
+ * OpenGL's functions there. */
+void window_use(struct window *window, bool anew);
 void (*window_function(const char *name))(void);
 
 #endif

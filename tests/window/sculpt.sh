@@ -1,0 +1,181 @@
+# A hand carves: each tool, wheel, mirror, undo, redo, save, save as, quit-and-ask, resize. What it leaves behind is the
+# sculpture that its chip script makes. PICTURES, if set, is a folder for a screenshot of each scene, to be looked at.
+. "$CASES/lib.sh"
+
+journal=a.oct.journal
+
+open_sculptor() # ARGUMENT...
+{
+    balloon-sculpt "$@" >log 2>said </dev/null &
+    program=$!
+    window=$(xdotool search --sync --onlyvisible --pid "$program" | tail -n 1)
+    xdotool windowfocus "$window" 2>/dev/null || true
+    at 10 10
+    settle
+}
+
+settle() { sleep 0.3; }
+
+press() # KEY...
+{
+    xdotool key "$@"
+    settle
+}
+
+click() # X Y
+{
+    at "$1" "$2"
+    xdotool click 1
+    settle
+}
+
+drag() # BUTTON X0 Y0 X1 Y1
+{
+    at "$2" "$3"
+    xdotool mousedown "$1"
+    at $((($2 + $4) / 2)) $((($3 + $5) / 2))
+    at "$4" "$5"
+    xdotool mouseup "$1"
+    settle
+}
+
+# journal_has PATTERN: the operation is in the journal, at the moment it is done
+journal_has()
+{
+    tries=0
+    until grep -Eq -- "$1" "$journal"; do
+        tries=$((tries + 1))
+        [ $tries -lt 100 ] || { cat "$journal" >log; fail "no line of the journal matches: $1"; }
+        sleep 0.05
+    done
+}
+
+picture() { [ -z "${PICTURES:-}" ] || import -window "$window" "$PICTURES/$1.png"; }
+
+# same_cells A.oct B.oct
+same_cells()
+{
+    balloon-sculpt -q "$1" --export 1.vox && balloon-sculpt -q "$2" --export 2.vox && cmp -s 1.vox 2.vox ||
+        fail "$1 and $2 are not the same sculpture"
+}
+
+open_sculptor a.oct --depth 5
+picture start
+
+# from the front, the middle of the window is the middle of the cube's face
+press 1
+press b
+click 480 360
+journal_has '^chip box 0\.4[0-9]* 0\.4[0-9]* 0\.9[0-9]* 0\.5[0-9]* 0\.5[0-9]* 1\.0'
+journal_has '^step'
+
+press s
+xdotool keydown ctrl click 4 click 4 click 4 keyup ctrl # a larger brush: 0.08 x 1.1^3
+click 400 300
+journal_has '^chip sphere .* 0\.10648'
+press c
+click 560 300
+journal_has '^chip cylinder '
+press d
+drag 1 380 420 580 420
+journal_has '^chip capsule '
+press Tab
+press m
+drag 1 420 260 520 260
+journal_has '^material 2'
+journal_has '^fill capsule '
+press Tab
+press x
+press s
+click 420 440
+journal_has '^mirror x'
+press x
+press n
+click 400 300
+journal_has '^sandpaper '
+press h
+click 560 300
+journal_has '^heat '
+press k
+drag 1 330 500 630 520
+journal_has '^chip half-space '
+picture carved
+
+# turning, panning and zooming touch nothing
+lines=$(wc -l <"$journal")
+drag 2 300 300 400 330
+drag 3 300 300 320 300
+xdotool click 4
+settle
+press Home
+[ "$(wc -l <"$journal")" = "$lines" ] || fail "looking around was an operation"
+picture turned
+
+press ctrl+z
+press ctrl+z
+press ctrl+y
+[ "$(grep -c '^undo' "$journal")" = 2 ] && [ "$(grep -c '^redo' "$journal")" = 1 ] || fail "undo and redo are not there"
+
+xdotool windowsize "$window" 700 500
+settle
+press F1
+picture help
+press F1
+press p
+picture balloon
+press i
+picture inflating
+press p
+
+press ctrl+s
+tries=0
+until [ -s a.oct ]; do
+    tries=$((tries + 1))
+    [ $tries -lt 100 ] || fail "nothing was saved"
+    sleep 0.05
+done
+cp "$journal" replay.chips
+balloon-sculpt -q --script replay.chips -o replay.oct
+same_cells a.oct replay.oct
+
+# unsaved work is asked for
+press 1 s
+click 300 300
+xdotool windowquit "$window"
+settle
+picture question
+kill -0 "$program" || fail "the window closed with unsaved work"
+press Escape
+press ctrl+shift+s
+press BackSpace BackSpace BackSpace BackSpace # .oct
+xdotool type b.oct
+press Return
+tries=0
+until [ -s ab.oct ]; do
+    tries=$((tries + 1))
+    [ $tries -lt 100 ] || fail "nothing was saved under another name"
+    sleep 0.05
+done
+press ctrl+q
+ends 0
+[ ! -e a.oct.journal ] && [ ! -e ab.oct.journal ] || fail "a journal is left behind"
+[ ! -s said ] || fail "it said something"
+
+# a killed program loses nothing: the next start offers it
+open_sculptor ab.oct
+press 1
+click 350 400
+journal=ab.oct.journal
+journal_has '^step'
+kill -9 "$program"
+wait "$program" 2>/dev/null || true
+cp ab.oct before.oct
+open_sculptor ab.oct
+picture recover
+press r
+press ctrl+s
+press ctrl+q
+ends 0
+balloon-sculpt -q before.oct --export 1.vox
+balloon-sculpt -q ab.oct --export 2.vox
+! cmp -s 1.vox 2.vox || fail "the work before the kill is lost"
