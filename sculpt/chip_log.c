@@ -1,6 +1,9 @@
 #include "sculpt/chip_log.h"
 
+#include "common/array.h"
+
 #include <stdlib.h>
+#include <string.h>
 
 static void write_start(FILE *stream, const struct chips *chips, unsigned depth, struct chip_state *state)
 {
@@ -12,46 +15,69 @@ static void write_start(FILE *stream, const struct chips *chips, unsigned depth,
     state->mirror = 0;
 }
 
-/* Whatever the log before ends with, the first line that needs a material or a mirror says which. */
-static void write_before(FILE *stream, const struct bytes *before, struct chip_state *state)
+/* Puts the chips behind those of the log before, as if all were one script. */
+static enum status append(struct chips *all, const struct chips *chips, struct error *err)
 {
-    fwrite(before->data, 1, before->size, stream);
-    if (before->size > 0 && before->data[before->size - 1] != '\n')
-        fputc('\n', stream);
-    state->material = OCTREE_MATERIALS;
-    state->mirror = CHIP_MIRROR_X | CHIP_MIRROR_Y | CHIP_MIRROR_Z | CHIP_MIRROR_Z << 1;
+    if (!ARRAY_RESERVE(all, chips->count))
+        return error_no_memory(err, "the chip log");
+    if (chips->count > 0)
+        memcpy(all->items + all->count, chips->items, chips->count * sizeof *chips->items);
+    all->count += chips->count;
+    for (int m = 1; m < OCTREE_MATERIALS; m++)
+        if (chips->has_coefficient[m]) {
+            all->coefficient[m] = chips->coefficient[m];
+            all->has_coefficient[m] = true;
+        }
+    return STATUS_OK;
 }
 
-enum status chip_log_write(const struct bytes *before, const struct chips *chips, unsigned depth,
-                           struct bytes *log, struct error *err)
+static enum status write_all(const struct chips *chips, unsigned depth, struct bytes *log, struct error *err)
 {
-    struct chips kept = {0};
     struct chip_state state;
     char *text = NULL;
     size_t size = 0;
-    enum status status = chips_keep(chips, &kept, err);
-    if (status)
-        return status;
     FILE *stream = open_memstream(&text, &size);
-    if (stream) {
-        if (before)
-            write_before(stream, before, &state);
-        else
-            write_start(stream, &kept, depth, &state);
-        for (int m = 1; m < OCTREE_MATERIALS; m++)
-            if (kept.has_coefficient[m])
-                fprintf(stream, "coefficient %d %.9g\n", m, (double)kept.coefficient[m]);
-        for (size_t i = 0; i < kept.count; i++)
-            chip_write(stream, &kept.items[i], &state);
-    }
-    chips_clear(&kept);
-    bool failed = !stream || ferror(stream);
-    if ((stream && fclose(stream)) || failed) {
+    if (!stream)
+        return error_no_memory(err, "the chip log");
+    write_start(stream, chips, depth, &state);
+    for (int m = 1; m < OCTREE_MATERIALS; m++)
+        if (chips->has_coefficient[m])
+            fprintf(stream, "coefficient %d %.9g\n", m, (double)chips->coefficient[m]);
+    for (size_t i = 0; i < chips->count; i++)
+        chip_write(stream, &chips->items[i], &state);
+    bool failed = ferror(stream);
+    if (fclose(stream) || failed) {
         free(text);
         return error_no_memory(err, "the chip log");
     }
     *log = (struct bytes){(unsigned char *)text, size};
     return STATUS_OK;
+}
+
+/* A log that is no script is as none: what is written then does not hold, and is not believed. */
+static enum status read_before(const struct bytes *before, struct chips *chips, struct error *err)
+{
+    struct error why = {0};
+    enum status status = chips_parse("the chip log", before->data, before->size, chips, &why);
+    if (status != STATUS_NO_MEMORY)
+        return STATUS_OK;
+    return error_no_memory(err, "the chip log");
+}
+
+enum status chip_log_write(const struct bytes *before, const struct chips *chips, unsigned depth,
+                           struct bytes *log, struct error *err)
+{
+    struct chips kept = {0}, all = {0};
+    enum status status = chips_keep(chips, &kept, err);
+    if (!status && before)
+        status = read_before(before, &all, err);
+    if (!status && before)
+        status = append(&all, &kept, err);
+    if (!status)
+        status = write_all(before ? &all : &kept, depth, log, err);
+    chips_clear(&kept);
+    chips_clear(&all);
+    return status;
 }
 
 enum status chip_log_holds(const struct bytes *log, const struct octree *tree, bool *holds, struct error *err)

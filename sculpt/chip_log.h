@@ -7,7 +7,9 @@
 
 /* Writes into *log (overwritten; free it with bytes_clear()) the log `before` and, behind it, those of the chips that
  * were not taken back. NULL for `before` is a new cube: of chips->start_material, and of this depth where the script
- * names none. Equal operations are equal bytes. Errors: STATUS_NO_MEMORY. */
+ * names none. Equal operations are equal bytes, however they are
+ * parted. Where `before` is no script the result
+ * does not hold. Errors: STATUS_NO_MEMORY. */
 enum status chip_log_write(const struct bytes *before, const struct chips *chips, unsigned depth,
                            struct bytes *log, struct error *err);
 

@@ -40,7 +40,16 @@ static void print_materials(const struct octree *tree, FILE *stream)
                     (unsigned long long)materials.cells[m], (double)tree->coefficient[m]);
 }
 
-void info_print(const struct octree *tree, FILE *stream)
+static void print_chunk(const struct octree_chunks *chunks, const char *name, const char *title, FILE *stream)
+{
+    const struct octree_chunk *chunk = octree_chunks_find(chunks, name);
+    if (chunk)
+        fprintf(stream, "%-14s %zu bytes\n", title, chunk->data.size);
+    else
+        fprintf(stream, "%-14s none\n", title);
+}
+
+void info_print(const struct octree *tree, const struct octree_chunks *chunks, FILE *stream)
 {
     const struct octree_info info = octree_measure(tree);
     const double side = 1 << tree->depth;
@@ -53,4 +62,6 @@ void info_print(const struct octree *tree, FILE *stream)
     print_bounds(&info, 1 / side, stream);
     fprintf(stream, "%-14s %zu\n", "bytes", info.bytes);
     print_materials(tree, stream);
+    print_chunk(chunks, OCTREE_CHUNK_LOG, "chip log", stream);
+    print_chunk(chunks, OCTREE_CHUNK_PREVIEW, "preview", stream);
 }

@@ -2,15 +2,25 @@
 #include "common/array.h"
 #include "common/command.h"
 #include "common/file.h"
+#include "common/octree_chunks.h"
 #include "render/render.h"
+#include "sculpt/chip_log.h"
+#include "sculpt/coarse.h"
+#include "sculpt/export.h"
 #include "sculpt/info.h"
+#include "sculpt/journal.h"
 #include "sculpt/sculpt.h"
+#include "sculpt/voxelise.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum {
     DEPTH_DEFAULT = 6,
+    PREVIEW_WIDTH = 256,
+    PREVIEW_HEIGHT = 192,
+    PREVIEW_DEPTH = 7, /* more cells than pixels show nothing more */
 };
 
 enum option_key {
@@ -21,12 +31,17 @@ enum option_key {
     OPTION_INFO,
     OPTION_DEPTH,
     OPTION_SOLID,
+    OPTION_RECOVER,
 };
 
 static const struct argp_option option_list[] = {
     {"script", OPTION_SCRIPT, "FILE.chips", 0, "carve what the script says", 0},
-    {"import", OPTION_IMPORT, "FILE.vox", 0, "begin with a MagicaVoxel model", 0},
-    {"depth", OPTION_DEPTH, "N", 0, "a new cube has 2^N cells a side, N from 0 to 10 (6)", 0},
+    {"import", OPTION_IMPORT, "FILE", 0,
+     "begin with a MagicaVoxel model (.vox) or a closed mesh (.stl, .ply, .obj)", 0},
+    {"depth", OPTION_DEPTH, "N", 0,
+     "a new cube has 2^N cells a side, N from 0 to 10 (6); for a mesh from 2 (7)", 0},
+    {"recover", OPTION_RECOVER, NULL, 0,
+     "begin with the work on FILE.oct that a killed program left in FILE.oct.journal", 0},
     {"solid", OPTION_SOLID, NULL, 0, "fill the hollows of what is begun with", 0},
     {"output", 'o', "FILE.oct", 0, "save the sculpture", 0},
     {"export", OPTION_EXPORT, "FILE", 0,
@@ -42,7 +57,13 @@ struct options {
     const char **exports;
     size_t export_count;
     long depth; /* -1: not given */
-    bool info, solid;
+    bool info, solid, recover;
+};
+
+/* What is carved, and what its file carries besides. */
+struct work {
+    struct octree tree;
+    struct octree_chunks chunks; /* of the file that was begun with; the chip log where one is known */
 };
 
 static error_t parse_option(int key, char *argument, struct argp_state *state)
@@ -67,6 +88,9 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
     case OPTION_SOLID:
         options->solid = true;
         return 0;
+    case OPTION_RECOVER:
+        options->recover = true;
+        return 0;
     case OPTION_DEPTH:
         options->depth = command_whole(state, "--depth", argument, 0, OCTREE_DEPTH_MAX);
         return 0;
@@ -87,31 +111,9 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
     }
 }
 
-static enum status save_faces(const struct octree *tree, const char *path, struct error *err)
+static bool asks_for_result(const struct options *options)
 {
-    struct mesh mesh = {0};
-    enum status status = sculpt_faces(tree, &mesh, err);
-    if (status)
-        error_prefix(err, path);
-    else
-        status = mesh_save(&mesh, path, err);
-    mesh_clear(&mesh);
-    return status;
-}
-
-static const struct {
-    const char *extension;
-    enum status (*save)(const struct octree *tree, const char *path, struct error *err);
-} exporters[] = {{"vox", vox_save}, {"ply", save_faces}, {"chips", chips_save}};
-
-enum { EXPORTERS = sizeof exporters / sizeof *exporters };
-
-static int exporter_of(const char *path)
-{
-    for (int i = 0; i < EXPORTERS; i++)
-        if (file_has_extension(path, exporters[i].extension))
-            return i;
-    return -1;
+    return options->output || options->export_count || options->picture || options->info;
 }
 
 /* What argp cannot see: options that contradict each other, and names that say nothing is possible. */
@@ -120,22 +122,30 @@ static enum status check_options(const struct options *options, struct error *er
     if (options->import && options->file)
         return error_set(err, STATUS_USAGE, "--import %s and %s: give one of them to begin with",
                          options->import, options->file);
-    if (options->import && !file_has_extension(options->import, "vox"))
-        return error_set(err, STATUS_USAGE, "--import %s: .vox is read", options->import);
-    if (options->depth >= 0 && (options->import || options->file))
-        return error_set(err, STATUS_USAGE, "--depth %ld: %s has its own; give --depth for a new cube only",
+    const bool mesh = options->import && mesh_is_file_name(options->import);
+    if (options->import && !mesh && !file_has_extension(options->import, "vox"))
+        return error_set(err, STATUS_USAGE, "--import %s: .vox, .stl, .ply and .obj are read",
+                         options->import);
+    if (options->recover && !options->file)
+        return error_set(err, STATUS_USAGE, "--recover: give the FILE.oct that was being carved");
+    if (mesh && options->depth >= 0 && options->depth < VOXELISE_DEPTH_MIN)
+        return error_set(err, STATUS_USAGE, "--depth %ld: a mesh needs one from %d to %d", options->depth,
+                         VOXELISE_DEPTH_MIN, OCTREE_DEPTH_MAX);
+    if (options->depth >= 0 && ((options->import && !mesh) || options->file))
+        return error_set(err, STATUS_USAGE,
+                         "--depth %ld: %s has its own; give --depth for a new cube or a mesh only",
                          options->depth, options->import ? options->import : options->file);
     for (size_t i = 0; i < options->export_count; i++)
-        if (exporter_of(options->exports[i]) < 0)
+        if (!sculpt_export_is_name(options->exports[i]))
             return error_set(err, STATUS_USAGE, "--export %s: .vox, .ply and .chips are written",
                              options->exports[i]);
     if (options->solid && !options->import && !options->file)
         return error_set(err, STATUS_USAGE, "--solid: a new cube has no hollows; give FILE.oct or --import");
-    bool asks = options->output || options->export_count || options->picture || options->info;
-    if (!asks && (options->script || options->import || options->depth >= 0))
+    if (!asks_for_result(options) &&
+        (options->script || options->import || options->solid || options->depth >= 0))
         return error_set(err, STATUS_USAGE,
                          "nothing is done with the sculpture: give -o, --export, --render or --info");
-    if (!asks)
+    if (!asks_for_result(options))
         return error_set(err, STATUS_RESOURCE,
                          "there is no window to carve in: carve with --script FILE.chips, look with --render "
                          "FILE.png (see --help)");
@@ -159,76 +169,193 @@ static enum status check_script(const struct options *options, const struct chip
     return STATUS_OK;
 }
 
-static enum status carve(const struct options *options, struct octree *tree, struct error *err)
+/* The log goes on with what was done; what is not known to have been made by chips has none. */
+static enum status keep_log(const struct options *options, struct work *work, const struct chips *chips,
+                            struct error *err)
 {
-    struct chips chips = {0};
-    enum status status = chips_load(options->script, &chips, err);
+    const struct octree_chunk *before = octree_chunks_find(&work->chunks, OCTREE_CHUNK_LOG);
+    struct bytes log;
+    if (!before && (options->file || options->import))
+        return STATUS_OK;
+    enum status status = chip_log_write(before ? &before->data : NULL, chips, work->tree.depth, &log, err);
+    if (!status && (status = octree_chunks_put(&work->chunks, OCTREE_CHUNK_LOG, &log, err)))
+        bytes_clear(&log);
+    return status;
+}
+
+static enum status carve(const struct options *options, struct work *work, struct error *err)
+{
+    struct chips chips = {.start_material = 1};
+    enum status status = options->script ? chips_load(options->script, &chips, err) : STATUS_OK;
     if (!status)
-        status = check_script(options, &chips, tree, err);
+        status = check_script(options, &chips, &work->tree, err);
     if (!status && !options->file && !options->import)
-        status = chips_begin(&chips, tree->depth, tree, err);
+        status = chips_begin(&chips, work->tree.depth, &work->tree, err);
     else if (!status)
-        chips_set_coefficients(&chips, tree);
+        chips_set_coefficients(&chips, &work->tree);
     chips.progress = progress_update;
     progress_begin("carving", "chips", (double)chips.count);
     if (!status)
-        status = chips_run(tree, &chips, NULL, err);
+        status = chips_run(&work->tree, &chips, NULL, err);
     progress_end();
+    if (!status)
+        status = keep_log(options, work, &chips, err);
     chips_clear(&chips);
     return status;
 }
 
 /* Models are often shells, and a shell makes a balloon inside a balloon: so hollows are filled, or told of. */
-static enum status fill_hollows(const struct options *options, struct octree *tree, struct error *err)
+static enum status fill_hollows(const struct options *options, struct work *work, struct error *err)
 {
     uint64_t cells;
     if (!options->solid && !options->import)
         return STATUS_OK;
-    enum status status = octree_fill_hollows(tree, options->solid ? info_main_material(tree) : 0, &cells,
-                                             err);
+    unsigned material = options->solid ? info_main_material(&work->tree) : 0;
+    enum status status = octree_fill_hollows(&work->tree, material, &cells, err);
     if (!status && cells > 0 && !options->solid)
         command_note("%s is hollow: %llu cells within are empty; --solid fills them", options->import,
                      (unsigned long long)cells);
+    if (!status && cells > 0 && options->solid)
+        octree_chunks_clear(&work->chunks); /* no chip says so */
     return status;
 }
 
-static enum status make(const struct options *options, struct octree *tree, struct error *err)
+static enum status import_mesh(const struct options *options, struct octree *tree, struct error *err)
+{
+    struct voxelise_report report;
+    char repairs[256];
+    unsigned depth = options->depth >= 0 ? (unsigned)options->depth : VOXELISE_DEPTH_DEFAULT;
+    enum status status = voxelise_load(options->import, depth, tree, &report, err);
+    if (status)
+        return status;
+    if (mesh_report_repairs(&report.mesh, repairs, sizeof repairs)[0])
+        command_note("%s: %s", options->import, repairs);
+    if (report.mesh.boundary_edges > 0)
+        command_note("%s: %zu edges are open; its holes were closed as what surrounds them suggests",
+                     options->import, report.mesh.boundary_edges);
+    return STATUS_OK;
+}
+
+static enum status recover(const char *path, struct octree *tree, struct error *err)
+{
+    struct journal_report report;
+    bool left;
+    enum status status = journal_is_left(path, &left, err);
+    if (!status && !left)
+        status = error_set(err, STATUS_FILE, "%s: has no journal, so no work on it was lost", path);
+    if (!status)
+        status = journal_recover(path, tree, &report, err);
+    if (status)
+        return status;
+    command_note("%s: %zu operations recovered%s", path, report.operations,
+                 report.unsaved ? "" : "; they had been saved");
+    if (report.lost_bytes > 0)
+        command_note("%s.journal: its last %zu bytes are cut off or damaged, and left out", path,
+                     report.lost_bytes);
+    return STATUS_OK;
+}
+
+static enum status load(const struct options *options, struct work *work, struct error *err)
+{
+    struct error ignored;
+    bool left;
+    if (options->recover)
+        return recover(options->file, &work->tree, err);
+    if (!journal_is_left(options->file, &left, &ignored) && left)
+        command_note("%s.journal holds work that was not saved: --recover begins with it", options->file);
+    return octree_load_with(options->file, &work->tree, &work->chunks, err);
+}
+
+static enum status make(const struct options *options, struct work *work, struct error *err)
 {
     enum status status;
     if (options->file)
-        status = octree_load(options->file, tree, err);
+        status = load(options, work, err);
+    else if (options->import && mesh_is_file_name(options->import))
+        status = import_mesh(options, &work->tree, err);
     else if (options->import)
-        status = vox_load(options->import, tree, err);
+        status = vox_load(options->import, &work->tree, err);
     else
-        status = octree_init(tree, options->depth >= 0 ? (unsigned)options->depth : DEPTH_DEFAULT, 1, err);
+        status = octree_init(&work->tree, options->depth >= 0 ? (unsigned)options->depth : DEPTH_DEFAULT, 1,
+                             err);
     if (!status)
-        status = fill_hollows(options, tree, err);
-    if (!status && options->script)
-        status = carve(options, tree, err);
-    return status;
+        status = fill_hollows(options, work, err);
+    return status ? status : carve(options, work, err);
 }
+
+static const struct render_skin clay = {.colour = {0.62f, 0.42f, 0.26f}, .facets = true};
 
 static enum status draw(const struct octree *tree, const char *path, struct error *err)
 {
     struct mesh mesh = {0};
-    const struct render_skin skin = {.mesh = &mesh, .colour = {0.62f, 0.42f, 0.26f}, .facets = true};
+    struct render_skin skin = clay;
+    skin.mesh = &mesh;
     enum status status = sculpt_faces(tree, &mesh, err);
     status = status ? error_prefix(err, path) : render_still(&skin, path, "balloon-sculpt", err);
     mesh_clear(&mesh);
     return status;
 }
 
-static enum status hand_out(const struct options *options, const struct octree *tree, struct error *err)
+/* A sculpture is as good without a preview: what stands in its way is no failure. */
+static void make_preview(struct work *work)
 {
-    enum status status = STATUS_OK;
-    if (options->output)
-        status = octree_save(tree, options->output, err);
+    struct octree coarse = {0};
+    struct mesh mesh = {0};
+    struct render_skin skin = clay;
+    struct bytes png = {0};
+    struct error err = {0};
+    skin.mesh = &mesh;
+    enum status status = sculpt_coarsen(&work->tree, PREVIEW_DEPTH, &coarse, &err);
+    if (!status)
+        status = sculpt_faces(&coarse, &mesh, &err);
+    if (!status)
+        status = render_still_png(&skin, PREVIEW_WIDTH, PREVIEW_HEIGHT, "balloon-sculpt", &png, &err);
+    if (!status)
+        status = octree_chunks_put(&work->chunks, OCTREE_CHUNK_PREVIEW, &png, &err);
+    if (status && status != STATUS_RANGE) /* nothing is left to be seen */
+        command_note("the sculpture is saved without a preview: %s", err.text);
+    bytes_clear(&png);
+    mesh_clear(&mesh);
+    octree_clear(&coarse);
+}
+
+static enum status save(const struct options *options, struct work *work, struct error *err)
+{
+    bool left;
+    enum status status = journal_is_left(options->output, &left, err); /* nobody else is carving it */
+    if (status)
+        return status;
+    const bool recovered = options->recover && (!strcmp(options->file, options->output) ||
+                                                file_same(options->file, options->output));
+    if (left && !recovered)
+        command_note("%s.journal belongs to the sculpture that is replaced", options->output);
+    make_preview(work);
+    status = octree_save_with(&work->tree, &work->chunks, options->output, err);
+    if (!status && left && recovered)
+        status = journal_remove(options->output, err);
+    return status;
+}
+
+static enum status hand_out(const struct options *options, struct work *work, struct error *err)
+{
+    enum status status = options->output ? save(options, work, err) : STATUS_OK;
     for (size_t i = 0; i < options->export_count && !status; i++)
-        status = exporters[exporter_of(options->exports[i])].save(tree, options->exports[i], err);
+        status = sculpt_export(&work->tree, &work->chunks, options->exports[i], err);
     if (!status && options->picture)
-        status = draw(tree, options->picture, err);
+        status = draw(&work->tree, options->picture, err);
     if (!status && options->info)
-        info_print(tree, stdout);
+        info_print(&work->tree, &work->chunks, stdout);
+    return status;
+}
+
+static enum status carve_in_batch(const struct options *options, struct error *err)
+{
+    struct work work = {0};
+    enum status status = make(options, &work, err);
+    if (!status)
+        status = hand_out(options, &work, err);
+    octree_clear(&work.tree);
+    octree_chunks_clear(&work.chunks);
     return status;
 }
 
@@ -249,7 +376,6 @@ int main(int argc, char **argv)
         NULL,
         NULL};
     struct error err = {0};
-    struct octree tree = {0};
     struct options options = {.depth = -1, .exports = array_new((size_t)argc, sizeof *options.exports)};
     command_begin("balloon-sculpt");
     if (!options.exports) {
@@ -259,10 +385,7 @@ int main(int argc, char **argv)
     argp_parse(&argp, argc, argv, 0, NULL, &options);
     enum status status = check_options(&options, &err);
     if (!status)
-        status = make(&options, &tree, &err);
-    if (!status)
-        status = hand_out(&options, &tree, &err);
-    octree_clear(&tree);
+        status = carve_in_batch(&options, &err);
     free(options.exports);
     return status ? command_fail(&err) : command_end();
 }

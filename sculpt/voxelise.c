@@ -8,8 +8,7 @@
 #include <string.h>
 
 /* A mesh is too open when its undecided cells are more than this part of those inside; see struct voxelise_report. A
- * ball with one triangle in ten missing has 0.006, half a ball without its cut 0.01, and one with three in ten missing
- * 0.5. */
+ * ball with a tenth of its triangles missing has 0.006, with a fifth 0.03; half a ball without its cut has 0.5. */
 #define UNDECIDED_MAX 0.2
 
 /* Cells as bits in Morton order, so that any node of the octree is a run of them. */

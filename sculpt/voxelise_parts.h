@@ -34,6 +34,10 @@ struct winding;
 enum status winding_new(const struct mesh *mesh, struct winding **winding, struct error *err);
 void winding_free(struct winding *winding);
 
+/* That part for a single triangle: van Oosterom and Strackee, "The solid angle of a plane triangle", IEEE Trans. Biomed.
+ * Eng. 30, 1983. */
+double winding_of_triangle(const struct mesh *mesh, uint32_t triangle, const double point[3]);
+
 /* Within about 0.02 of the exact sum over all triangles. */
 double winding_at(const struct winding *winding, const double point[3]);
 

@@ -136,9 +136,7 @@ void winding_free(struct winding *winding)
     free(winding);
 }
 
-/* The solid angle of a triangle over 4 pi: van Oosterom and Strackee, "The solid angle of a plane triangle", IEEE
- * Trans. Biomed. Eng. 30, 1983. */
-static double triangle_winding(const struct mesh *mesh, uint32_t t, const double point[3])
+double winding_of_triangle(const struct mesh *mesh, uint32_t t, const double point[3])
 {
     double a[3], b[3], c[3], cross[3];
     vec3_sub(mesh->position[mesh->triangle[t][0]], point, a);
@@ -154,7 +152,7 @@ static double leaf_winding(const struct winding *winding, const struct node *nod
 {
     double sum = 0;
     for (uint32_t i = 0; i < node->count; i++)
-        sum += triangle_winding(winding->mesh, winding->order[node->begin + i], point);
+        sum += winding_of_triangle(winding->mesh, winding->order[node->begin + i], point);
     return sum;
 }
 

@@ -16,7 +16,7 @@ bad '1: number 1 of the sphere is 1e\+300; must be within' 'chip sphere 1e300 0.
 bad '1: a radius of the sphere is 0; must be above 0' 'chip sphere 0.5 0.5 0.5 0\n'
 bad '1: a radius of the sphere is -1; must be above 0' 'chip sphere 0.5 0.5 0.5 -1\n'
 bad '1: "12" must be a whole number from 0 to 10' 'depth 12\n'
-bad '2: start must come before the first chip' 'chip sphere 0.5 0.5 0.5 1\nstart full\n'
+bad '2: start must come before the first operation' 'chip sphere 0.5 0.5 0.5 1\nstart full\n'
 head -c 1000 /bin/sh >s.chips
 refused 1 's\.chips:1: ' balloon-sculpt --script s.chips -o out.oct
 only_files s.chips

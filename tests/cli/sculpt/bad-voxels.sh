@@ -18,4 +18,4 @@ bad 'chunk XYZI at byte 20: has no chunk SIZE before it' \
 # 10^9 voxels claimed in a chunk of 8 bytes
 bad 'chunk XYZI at byte 44: claims 1000000000 voxels but has room for 1' \
     "VOX \\226\\0\\0\\0$main\\054\\0\\0\\0SIZE\\014\\0\\0\\0\\0\\0\\0\\0\\001\\0\\0\\0\\001\\0\\0\\0\\001\\0\\0\\0XYZI\\010\\0\\0\\0\\0\\0\\0\\0\\0\\312\\232\\073\\0\\0\\0\\001"
-refused 2 'model\.stl: \.vox is read' balloon-sculpt --import model.stl -o out.oct
+refused 2 '--import model\.xyz: \.vox, \.stl, \.ply and \.obj are read' balloon-sculpt --import model.xyz -o out.oct
