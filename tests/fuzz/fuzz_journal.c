@@ -1,0 +1,58 @@
+#include "fuzz.h"
+#include "sculpt/journal.h"
+#include "sculpt/journal_text.h"
+
+#include <inttypes.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Puts the right checksum behind every line that has the room, for else hardly any damage gets past the first. */
+static void mend_checksums(char *text, size_t size)
+{
+    uint32_t sum = 0;
+    for (char *line = text, *end; (end = memchr(line, '\n', size - (size_t)(line - text))); line = end + 1) {
+        char tail[JOURNAL_SUM_SIZE + 1];
+        if (end + 1 - line < JOURNAL_SUM_SIZE)
+            continue;
+        size_t length = (size_t)(end + 1 - line) - JOURNAL_SUM_SIZE;
+        sum = journal_sum(sum, line, length);
+        snprintf(tail, sizeof tail, " #%08" PRIx32 "\n", sum);
+        memcpy(line + length, tail, JOURNAL_SUM_SIZE);
+    }
+}
+
+/* A journal that was recovered can be gone on with, and then leads to the same. */
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    char folder[] = "/tmp/balloon-fuzz-XXXXXX", path[64], name[80];
+    struct error err = {0};
+    struct octree tree = {0}, again = {0};
+    struct journal *journal = NULL;
+    struct journal_report report;
+    char *text = malloc(size + 1);
+    must(text && mkdtemp(folder));
+    if (size > 0)
+        memcpy(text, data, size);
+    mend_checksums(text, size);
+    snprintf(path, sizeof path, "%s/a.oct", folder);
+    snprintf(name, sizeof name, "%s" JOURNAL_SUFFIX, path);
+    FILE *stream = fopen(name, "wb");
+    must(stream && fwrite(text, 1, size, stream) == size && !fclose(stream));
+    free(text);
+    enum status status = journal_recover(path, &tree, &report, &err);
+    must_say(status, &err);
+    if (status) {
+        must(tree.blocks == NULL);
+    } else {
+        must(journal_open(path, NULL, &journal, &err) == STATUS_OK);
+        must(journal_mark(journal, &err) == STATUS_OK);
+        journal_close(journal, false);
+        must(journal_recover(path, &again, &report, &err) == STATUS_OK && report.lost_bytes == 0);
+        must(octree_equal(&tree, &again));
+    }
+    octree_clear(&tree);
+    octree_clear(&again);
+    unlink(name);
+    rmdir(folder);
+    return 0;
+}
