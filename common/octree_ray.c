@@ -35,6 +35,8 @@ static inline bool crossed(const struct march *march, int k, int plane)
 /* Where the ray is along axis k at march->time, known to be from low to high. */
 static inline int place_of(const struct march *march, int k, int low, int high)
 {
+    if (low == high)
+        return low;
     double place = march->origin[k] + march->time * march->direction[k];
     int cell = place > low ? place < high ? (int)place : high : low; /* low where it is NaN */
     if (march->down[k]) {
@@ -130,9 +132,7 @@ static unsigned leave_leaf(struct march *march, unsigned level)
         differences |= (unsigned)(march->cell[k] ^ next[k]);
         march->cell[k] = next[k];
     }
-    while (level <= march->tree->depth && differences >> level)
-        level++;
-    return level;
+    return 32 - (unsigned)__builtin_clz(differences);
 }
 
 /* Down from path[level] to the leaf of the cell; returns the leaf's level. */
