@@ -9,7 +9,7 @@
 
 enum { BOX_MARGIN = 4 }; /* between a text and its box's border, in dots */
 
-static const float box_colour[4] = {0.02f, 0.02f, 0.025f, 0.72f};
+static const float box_colour[4] = {0.02f, 0.02f, 0.025f, 0.82f};
 
 static void describe(const struct gl *gl, GLuint location, int size, size_t stride, size_t offset)
 {

@@ -225,7 +225,7 @@ const char shader_line_vertex[] =
     "    vec4 here = corner.x > 0.5 ? b : a;\n"
     "    vec2 moved = vec2(-along.y, along.x) * across + along * (corner.x - 0.5) * min(corner.z, 1.0);\n"
     "    gl_Position = here.w > 0.0 && here.z >= -1.0001 * here.w\n"
-    "                      ? vec4(here.xy / here.w + moved * 2.0 / size, here.z / here.w, 1.0)\n"
+    "                      ? vec4(here.xy / here.w + moved * 2.0 / size, max(here.z / here.w, -1.0), 1.0)\n"
     "                      : vec4(2.0, 2.0, 2.0, 1.0);\n"
     "}\n";
 

@@ -29,7 +29,8 @@ enum window_modifier { WINDOW_SHIFT = 1, WINDOW_CTRL = 2, WINDOW_ALT = 4 };
 enum window_button { WINDOW_LEFT, WINDOW_MIDDLE, WINDOW_RIGHT };
 
 /* A key is the character it writes (with shift: 'Z', '?'; with ctrl the small letter: 'z' for ctrl-z), one of
- * these characters, or a special key. */
+ * these characters, or a special key. X cannot tell ctrl with backspace, tab, enter, escape and delete from ctrl
+ * with h, i, m, 3 and 8: they come as those. */
 enum window_key {
     WINDOW_BACKSPACE = 8,
     WINDOW_TAB = 9,
