@@ -10,12 +10,12 @@
  *     if (journal_mark(journal, err) || octree_save(&tree, path, err)) ...     before each save
  *     journal_close(journal, true);                              true: nothing in it is wanted any more
  *
- * A journal is a script (.chips). Every line ends in a comment with its checksum, which covers the lines before it
- * too; the first line is a comment that says what the sculpture began as: a new cube, or a file of a certain hash.
- * That file is kept beside the journal as FILE.oct.journal-base (a second link to it; a copy where links are not
- * possible) until the journal is closed. So a journal is good for the whole session, undo of steps before a save
- * included, and a save that is interrupted does no harm. Each append is one write(2). While a journal is open it is
- * locked.
+ * A journal is a script (.chips) whose steps end where a line `step`, undo or redo says so. Every line ends in a
+ * comment with its checksum, which covers the lines before it too; the first line is a comment that says what the
+ * sculpture began as: a new cube, or a file of a certain hash. That file is kept beside the journal as
+ * FILE.oct.journal-base (a second link to it; a copy where links are not possible) until the journal is closed. So a
+ * journal is good for the whole session, undo of steps before a save included, and a save that is interrupted does no
+ * harm. Each append is one write(2). While a journal is open it is locked.
  */
 #ifndef SCULPT_JOURNAL_H
 #define SCULPT_JOURNAL_H

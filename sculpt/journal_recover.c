@@ -1,6 +1,7 @@
 /* Reading journals: from what a sculpture was to what it had become. */
 #include "sculpt/journal.h"
 
+#include "common/array.h"
 #include "sculpt/journal_text.h"
 
 #include <stdlib.h>
@@ -49,6 +50,15 @@ static enum status find_begin(struct recovery *recovery, struct error *err)
     return recovery->is_base || load_base(recovery, recovery->base) ? STATUS_OK : refuse(recovery, err);
 }
 
+/* In a journal a step ends only where a line says so, even while there is no such line yet. */
+static enum status end_steps_by_lines(struct chips *chips, struct error *err)
+{
+    if (!ARRAY_RESERVE(chips, 1))
+        return error_no_memory(err, "the journal");
+    chips->items[chips->count++] = (struct chip){.kind = CHIP_STEP};
+    return STATUS_OK;
+}
+
 /* What the lines up to `end` make of what the journal begins from. */
 static enum status replay(const struct recovery *recovery, size_t end, struct octree *tree, struct error *err)
 {
@@ -56,6 +66,8 @@ static enum status replay(const struct recovery *recovery, size_t end, struct oc
     enum status status = octree_copy(tree, &recovery->begun, err);
     if (!status)
         status = chips_parse(recovery->name, recovery->file.data, end, &chips, err);
+    if (!status)
+        status = end_steps_by_lines(&chips, err);
     if (!status)
         chips_set_coefficients(&chips, tree);
     if (!status)

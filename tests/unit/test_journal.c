@@ -278,6 +278,19 @@ static size_t lines_in(const struct bytes *bytes, size_t end)
     return lines;
 }
 
+/* The `step` that is put behind work left over must not change what the undo before it took back. */
+static void going_on_with_a_journal_changes_nothing_about_it(void **state)
+{
+    (void)state;
+    leave_nothing();
+    struct journal *journal = begin();
+    append(journal, ONE ONE "undo\n" THREE);
+    journal_close(journal, false);
+    assert_recovers(THREE);
+    journal_close(begin(), false);
+    assert_recovers(THREE);
+}
+
 static void a_journal_cut_at_any_byte_recovers_to_an_operation(void **state)
 {
     (void)state;
@@ -419,6 +432,7 @@ int main(void)
         cmocka_unit_test(only_one_program_writes),
         cmocka_unit_test(a_journal_that_is_closed_for_good_leaves_no_file),
         cmocka_unit_test(a_journal_that_is_left_is_gone_on_with),
+        cmocka_unit_test(going_on_with_a_journal_changes_nothing_about_it),
         cmocka_unit_test(a_journal_cut_at_any_byte_recovers_to_an_operation),
         cmocka_unit_test(a_journal_with_any_bit_flipped_recovers_what_is_before),
         cmocka_unit_test(a_program_killed_at_any_moment_loses_nothing_that_was_appended),
