@@ -136,6 +136,7 @@ void octree_release(struct octree *tree, octree_node node)
     if (!node_is_split(node))
         return;
     for (int i = 0; i < 8; i++)
-        octree_release(tree, tree->blocks[node_children(node) + i]);
+        if (node_is_split(tree->blocks[node_children(node) + i]))
+            octree_release(tree, tree->blocks[node_children(node) + i]);
     give_block(tree, node & ~OCTREE_SPLIT);
 }

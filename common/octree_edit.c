@@ -47,7 +47,8 @@ static inline octree_node edit_child(struct edit *edit, struct octree_cover cove
     if (cover.inside >> i & 1) {
         if (edit->tape)
             note_change(edit, at, side);
-        octree_release(edit->tree, child);
+        if (node_is_split(child))
+            octree_release(edit->tree, child);
         return edit->material;
     }
     return edit_node(edit, child, at, side, level);

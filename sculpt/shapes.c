@@ -77,10 +77,24 @@ static struct octree_cover box_covers(const void *context, const double corner[3
     return cover;
 }
 
+/* A cell has one centre, which is its nearest and its farthest. */
+static unsigned ball_holds_cells(const struct shape *shape, const double corner[3], double side)
+{
+    double square[3][2];
+    for (int k = 0; k < 3; k++)
+        for (int upper = 0; upper < 2; upper++) {
+            double off = corner[k] + upper * side + shape->half_cell - shape->centre[k];
+            square[k][upper] = shape->weight[k] * (off * off);
+        }
+    return at_most(square[0], square[1], square[2], shape->limit);
+}
+
 static struct octree_cover ball_covers(const void *context, const double corner[3], double side, bool cells)
 {
     const struct shape *shape = context;
     double nearest[3][2], farthest[3][2];
+    if (cells)
+        return (struct octree_cover){ball_holds_cells(shape, corner, side), 0};
     for (int k = 0; k < 3; k++) {
         double first[2], last[2];
         centres(shape, corner, side, k, first, last);
@@ -91,11 +105,8 @@ static struct octree_cover ball_covers(const void *context, const double corner[
             farthest[k][upper] = shape->weight[k] * (far * far);
         }
     }
-    struct octree_cover cover = {0};
-    cover.inside = at_most(farthest[0], farthest[1], farthest[2], shape->limit);
-    if (!cells)
-        cover.outside = ~at_most(nearest[0], nearest[1], nearest[2], shape->limit) & 0xff;
-    return cover;
+    return (struct octree_cover){at_most(farthest[0], farthest[1], farthest[2], shape->limit),
+                                 ~at_most(nearest[0], nearest[1], nearest[2], shape->limit) & 0xff};
 }
 
 static struct octree_cover half_space_covers(const void *context, const double corner[3], double side,
