@@ -1,8 +1,8 @@
 /* How fast chips, undo, smoothing and rays are, and what bounds each. */
-#include "bench.h"
 #include "common/random.h"
 #include "sculpt/history.h"
 #include "sculpt/sculpt.h"
+#include "support/bench.h"
 
 #include <math.h>
 
