@@ -20,6 +20,7 @@
 #ifndef SCULPT_JOURNAL_H
 #define SCULPT_JOURNAL_H
 
+#include "common/file.h"
 #include "common/octree.h"
 #include "sculpt/sculpt.h"
 
@@ -41,6 +42,11 @@ struct journal_report {
  * STATUS_FILE, STATUS_NO_MEMORY. */
 enum status journal_recover(const char *path, struct octree *tree, struct journal_report *report,
                             struct error *err);
+
+/* The same, and *log (overwritten; free it with bytes_clear()) is the chip log of the result; {0} when what the journal
+ * begins from has none. */
+enum status journal_recover_with(const char *path, struct octree *tree, struct bytes *log,
+                                 struct journal_report *report, struct error *err);
 
 /* Opens the journal of the sculpture `path` for appending and locks it. One that is left is gone on with (what is
  * behind its last whole line is cut off; a step ends there); else a new one begins: from the file, or, where

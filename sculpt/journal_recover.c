@@ -2,6 +2,8 @@
 #include "sculpt/journal.h"
 
 #include "common/array.h"
+#include "common/octree_chunks.h"
+#include "sculpt/chip_log.h"
 #include "sculpt/journal_text.h"
 
 #include <stdlib.h>
@@ -13,6 +15,7 @@ struct recovery {
     char *name, *base; /* of the journal and of the file that it begins from */
     struct bytes file; /* the journal */
     struct journal_text text;
+    struct octree_chunks chunks;    /* of the file that it begins from */
     struct octree begun;            /* what the journal begins from */
     struct octree saved;            /* what there is in `path`, unless that is damaged */
     bool exists, is_base, is_whole; /* the file `path`: is there, is the base itself, could be read */
@@ -25,7 +28,7 @@ static bool load_base(struct recovery *recovery, const char *path)
     struct error ignored;
     bool same = !file_read(path, &file, &ignored) && journal_hash(&file) == recovery->text.start.hash;
     bytes_clear(&file);
-    return same && !octree_load(path, &recovery->begun, &ignored);
+    return same && !octree_load_with(path, &recovery->begun, &recovery->chunks, &ignored);
 }
 
 static enum status refuse(const struct recovery *recovery, struct error *err)
@@ -59,15 +62,20 @@ static enum status end_steps_by_lines(struct chips *chips, struct error *err)
     return STATUS_OK;
 }
 
-/* What the lines up to `end` make of what the journal begins from. */
+/* The lines up to `end` as a script. */
+static enum status parse(const struct recovery *recovery, size_t end, struct chips *chips, struct error *err)
+{
+    enum status status = chips_parse(recovery->name, recovery->file.data, end, chips, err);
+    return status ? status : end_steps_by_lines(chips, err);
+}
+
+/* What they make of what the journal begins from. */
 static enum status replay(const struct recovery *recovery, size_t end, struct octree *tree, struct error *err)
 {
     struct chips chips = {0};
     enum status status = octree_copy(tree, &recovery->begun, err);
     if (!status)
-        status = chips_parse(recovery->name, recovery->file.data, end, &chips, err);
-    if (!status)
-        status = end_steps_by_lines(&chips, err);
+        status = parse(recovery, end, &chips, err);
     if (!status)
         chips_set_coefficients(&chips, tree);
     if (!status)
@@ -136,32 +144,71 @@ static enum status recover(struct recovery *recovery, struct octree *tree, struc
     return status;
 }
 
+/* The chip log of the result: that of what the journal begins from, and the journal's operations. */
+static enum status make_log(const struct recovery *recovery, struct bytes *log, struct error *err)
+{
+    const struct journal_start *start = &recovery->text.start;
+    const struct octree_chunk *before = octree_chunks_find(&recovery->chunks, OCTREE_CHUNK_LOG);
+    struct chips chips = {0};
+    *log = (struct bytes){0};
+    if (!recovery->text.begun || (!start->is_cube && !before))
+        return STATUS_OK;
+    enum status status = parse(recovery, recovery->text.end, &chips, err);
+    if (!status && start->is_cube)
+        chips.start_material = start->material;
+    if (!status)
+        status = chip_log_write(before ? &before->data : NULL, &chips, recovery->begun.depth, log, err);
+    chips_clear(&chips);
+    return status;
+}
+
+static enum status recovery_init(struct recovery *recovery, const char *path, struct error *err)
+{
+    bool left;
+    *recovery = (struct recovery){.path = path,
+                                  .name = journal_path(path, JOURNAL_SUFFIX),
+                                  .base = journal_path(path, JOURNAL_BASE_SUFFIX)};
+    if (!recovery->name || !recovery->base)
+        return error_no_memory(err, "the journal");
+    enum status status = journal_is_left(path, &left, err);
+    if (!status && !left)
+        return error_set(err, STATUS_FILE, "%s: has no journal, so no work on it was lost", path);
+    return status;
+}
+
+static void recovery_clear(struct recovery *recovery)
+{
+    octree_clear(&recovery->begun);
+    octree_clear(&recovery->saved);
+    octree_chunks_clear(&recovery->chunks);
+    bytes_clear(&recovery->file);
+    free(recovery->name);
+    free(recovery->base);
+}
+
 enum status journal_recover(const char *path, struct octree *tree, struct journal_report *report,
                             struct error *err)
 {
-    struct recovery recovery = {.path = path,
-                                .name = journal_path(path, JOURNAL_SUFFIX),
-                                .base = journal_path(path, JOURNAL_BASE_SUFFIX)};
+    return journal_recover_with(path, tree, NULL, report, err);
+}
+
+enum status journal_recover_with(const char *path, struct octree *tree, struct bytes *log,
+                                 struct journal_report *report, struct error *err)
+{
+    struct recovery recovery;
     struct octree made = {0};
-    bool left;
     *report = (struct journal_report){0};
-    enum status status = STATUS_OK;
-    if (!recovery.name || !recovery.base)
-        status = error_no_memory(err, "the journal");
-    if (!status)
-        status = journal_is_left(path, &left, err);
+    enum status status = recovery_init(&recovery, path, err);
     if (!status)
         status = recover(&recovery, &made, report, err);
+    if (!status && log)
+        status = make_log(&recovery, log, err);
     if (status) {
         octree_clear(&made);
     } else {
         octree_clear(tree);
         *tree = made;
     }
-    octree_clear(&recovery.begun);
-    octree_clear(&recovery.saved);
-    bytes_clear(&recovery.file);
-    free(recovery.name);
-    free(recovery.base);
+    recovery_clear(&recovery);
     return status;
 }

@@ -236,15 +236,14 @@ static enum status import_mesh(const struct options *options, struct octree *tre
     return STATUS_OK;
 }
 
-static enum status recover(const char *path, struct octree *tree, struct error *err)
+static enum status recover(const char *path, struct work *work, struct error *err)
 {
     struct journal_report report;
-    bool left;
-    enum status status = journal_is_left(path, &left, err);
-    if (!status && !left)
-        status = error_set(err, STATUS_FILE, "%s: has no journal, so no work on it was lost", path);
-    if (!status)
-        status = journal_recover(path, tree, &report, err);
+    struct bytes log = {0};
+    enum status status = journal_recover_with(path, &work->tree, &log, &report, err);
+    if (!status && log.data)
+        status = octree_chunks_put(&work->chunks, OCTREE_CHUNK_LOG, &log, err);
+    bytes_clear(&log);
     if (status)
         return status;
     command_note("%s: %zu operations recovered%s", path, report.operations,
@@ -260,7 +259,7 @@ static enum status load(const struct options *options, struct work *work, struct
     struct error ignored;
     bool left;
     if (options->recover)
-        return recover(options->file, &work->tree, err);
+        return recover(options->file, work, err);
     if (!journal_is_left(options->file, &left, &ignored) && left)
         command_note("%s.journal holds work that was not saved: --recover begins with it", options->file);
     return octree_load_with(options->file, &work->tree, &work->chunks, err);

@@ -1,7 +1,8 @@
 /* Whatever happens to a program that keeps a journal, the work up to the last whole operation is there. */
-#include "common/file.h"
+#include "common/octree_chunks.h"
 #include "common/random.h"
 #include "folder.h"
+#include "sculpt/chip_log.h"
 #include "sculpt/journal.h"
 
 #include <signal.h>
@@ -130,6 +131,35 @@ static void after_a_save_nothing_is_unsaved(void **state)
     save_carved(ONE, "a.oct");
     journal_close(journal, false);
     assert_false(assert_recovers(ONE).unsaved);
+}
+
+static void the_chip_log_goes_on_through_a_recovery(void **state)
+{
+    (void)state;
+    for (int with_file = 0; with_file < 2; with_file++) {
+        leave_nothing();
+        struct error err = {0};
+        struct octree tree = carved(ONE);
+        struct bytes log = {0};
+        struct journal_report report;
+        struct octree_chunks chunks = {0};
+        bool holds;
+        if (with_file) {
+            log = (struct bytes){(unsigned char *)strdup("depth 4\n" ONE), strlen("depth 4\n" ONE)};
+            assert_ok(octree_chunks_put(&chunks, OCTREE_CHUNK_LOG, &log, &err), &err);
+            assert_ok(octree_save_with(&tree, &chunks, "a.oct", &err), &err);
+        }
+        struct journal *journal = begin();
+        append(journal, TWO "step\n" THREE "undo\n");
+        journal_close(journal, false);
+        assert_ok(journal_recover_with("a.oct", &tree, &log, &report, &err), &err);
+        assert_ok(chip_log_holds(&log, &tree, &holds, &err), &err);
+        assert_true(holds);
+        assert_true(strstr((const char *)log.data, "heat") && !strstr((const char *)log.data, "fill"));
+        bytes_clear(&log);
+        octree_chunks_clear(&chunks);
+        octree_clear(&tree);
+    }
 }
 
 static void a_save_that_did_not_happen_loses_nothing(void **state)
@@ -426,6 +456,7 @@ int main(void)
         cmocka_unit_test(work_on_a_file_is_recovered_from_that_file),
         cmocka_unit_test(undo_of_steps_before_a_save_is_recovered),
         cmocka_unit_test(after_a_save_nothing_is_unsaved),
+        cmocka_unit_test(the_chip_log_goes_on_through_a_recovery),
         cmocka_unit_test(a_save_that_did_not_happen_loses_nothing),
         cmocka_unit_test(the_sculpture_may_be_damaged_or_gone),
         cmocka_unit_test(another_version_of_the_sculpture_is_refused),
