@@ -11,6 +11,7 @@
 #include "sculpt/journal.h"
 #include "sculpt/sculpt.h"
 #include "sculpt/voxelise.h"
+#include "sculpt/window.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -131,7 +132,8 @@ static enum status check_options(const struct options *options, struct error *er
     if (mesh && options->depth >= 0 && options->depth < VOXELISE_DEPTH_MIN)
         return error_set(err, STATUS_USAGE, "--depth %ld: a mesh needs one from %d to %d", options->depth,
                          VOXELISE_DEPTH_MIN, OCTREE_DEPTH_MAX);
-    if (options->depth >= 0 && ((options->import && !mesh) || options->file))
+    if (options->depth >= 0 &&
+        ((options->import && !mesh) || (options->file && !access(options->file, F_OK))))
         return error_set(err, STATUS_USAGE,
                          "--depth %ld: %s has its own; give --depth for a new cube or a mesh only",
                          options->depth, options->import ? options->import : options->file);
@@ -141,14 +143,9 @@ static enum status check_options(const struct options *options, struct error *er
                              options->exports[i]);
     if (options->solid && !options->import && !options->file)
         return error_set(err, STATUS_USAGE, "--solid: a new cube has no hollows; give FILE.oct or --import");
-    if (!asks_for_result(options) &&
-        (options->script || options->import || options->solid || options->depth >= 0))
+    if (!asks_for_result(options) && (options->script || options->import || options->solid))
         return error_set(err, STATUS_USAGE,
                          "nothing is done with the sculpture: give -o, --export, --render or --info");
-    if (!asks_for_result(options))
-        return error_set(err, STATUS_RESOURCE,
-                         "there is no window to carve in: carve with --script FILE.chips, look with --render "
-                         "FILE.png (see --help)");
     return STATUS_OK;
 }
 
@@ -347,6 +344,14 @@ static enum status hand_out(const struct options *options, struct work *work, st
     return status;
 }
 
+/* Without anything to do for a script it is a person who wants to carve. */
+static enum status open_window(const struct options *options, struct error *err)
+{
+    return sculpt_window(options->file ? options->file : "sculpture.oct",
+                         options->depth >= 0 ? (unsigned)options->depth : DEPTH_DEFAULT, options->recover,
+                         err);
+}
+
 static enum status carve_in_batch(const struct options *options, struct error *err)
 {
     struct work work = {0};
@@ -364,8 +369,9 @@ int main(int argc, char **argv)
         option_list,
         parse_option,
         "[FILE.oct]",
-        "Carves a sculpture out of a cube of material.\v"
-        "Without FILE.oct and --import a full cube is begun with. A script has a line for each chip, such as\n"
+        "Carves a sculpture out of a cube of material: in a window, or with the options below by a script.\v"
+        "Without FILE.oct and --import a full cube is begun with; in the window F1 lists the keys.\n"
+        "A script has a line for each chip, such as\n"
         "\n"
         "  chip sphere 0.5 0.5 0.5 0.2\n"
         "  fill capsule 0.2 0.2 0.5 0.8 0.8 0.5 0.1 0.05\n"
@@ -384,7 +390,7 @@ int main(int argc, char **argv)
     argp_parse(&argp, argc, argv, 0, NULL, &options);
     enum status status = check_options(&options, &err);
     if (!status)
-        status = carve_in_batch(&options, &err);
+        status = asks_for_result(&options) ? carve_in_batch(&options, &err) : open_window(&options, &err);
     free(options.exports);
     return status ? command_fail(&err) : command_end();
 }

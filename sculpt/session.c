@@ -35,11 +35,12 @@ static enum status load(struct session *session, struct error *err)
 static enum status recover_work(struct session *session, struct error *err)
 {
     struct journal_report report;
-    enum status status = journal_recover(session->path, &session->tree, &report, err);
+    enum status status = journal_recover_with(session->path, &session->tree, &session->log_before, &report,
+                                              err);
     if (status)
         return status;
     session->unsaved = report.unsaved;
-    session->log_lost = true;
+    session->log_lost = !session->log_before.data;
     return STATUS_OK;
 }
 
@@ -313,6 +314,18 @@ static enum status cut(struct session *session, struct error *err)
     return operate(session, &chip, err);
 }
 
+/* What the tool does where the pointer is. */
+static enum status use_tool(struct session *session, struct error *err)
+{
+    session->used = session->ray;
+    if (session->tool == TOOL_CUT)
+        return STATUS_OK; /* at the end of the line */
+    if (session->tool == TOOL_STROKE)
+        return sweep(session, err);
+    struct chip chip = brush_chip(session);
+    return operate(session, &chip, err);
+}
+
 enum status session_press(struct session *session, struct error *err)
 {
     if (session->dragging || (!session->aimed && session->tool != TOOL_CUT))
@@ -321,31 +334,17 @@ enum status session_press(struct session *session, struct error *err)
     session->pressed = session->ray;
     memcpy(session->last, session->middle, sizeof session->last);
     history_begin(&session->history, &session->tree);
-    return session_drag(session, err);
+    return use_tool(session, err);
 }
 
+/* A stroke goes on, sandpaper and heat rub on where they meet the sculpture; other tools do their work at one press. */
 enum status session_drag(struct session *session, struct error *err)
 {
-    if (!session->dragging)
+    const bool moved = memcmp(&session->used, &session->ray, sizeof session->ray) != 0;
+    const bool rubs = session->tool == TOOL_SANDPAPER || session->tool == TOOL_HEAT;
+    if (!session->dragging || !moved || !(session->tool == TOOL_STROKE || (rubs && session->aimed)))
         return STATUS_OK;
-    const bool first = !memcmp(&session->pressed, &session->ray, sizeof session->ray);
-    struct chip chip;
-    switch (session->tool) {
-    case TOOL_CUT:
-        return STATUS_OK;
-    case TOOL_STROKE:
-        return sweep(session, err);
-    case TOOL_SANDPAPER:
-    case TOOL_HEAT: /* rub on: once for each move on the sculpture */
-        if (!session->aimed)
-            return STATUS_OK;
-        break;
-    default: /* one press, one chip */
-        if (!first)
-            return STATUS_OK;
-    }
-    chip = brush_chip(session);
-    return operate(session, &chip, err);
+    return use_tool(session, err);
 }
 
 enum status session_release(struct session *session, struct error *err)

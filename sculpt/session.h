@@ -62,8 +62,8 @@ struct session {
 
     bool aimed; /* the pointer is on the sculpture: */
     struct octree_hit hit;
-    double middle[3], normal[3];     /* of the brush; out of the face that is hit */
-    struct session_ray ray, pressed; /* now, and where the button went down */
+    double middle[3], normal[3];           /* of the brush; out of the face that is hit */
+    struct session_ray ray, pressed, used; /* now, where the button went down, where the tool was used last */
     bool dragging;
     double last[3]; /* end of the stroke so far */
 

@@ -21,10 +21,13 @@ static void aim(double x, double y)
     session_aim(&session, (double[3]){x, y, 3}, (double[3]){0, 0, -1});
 }
 
+/* A window tells of the pointer's place once more when the button goes up. */
 static void click(double x, double y)
 {
     aim(x, y);
     assert_ok(session_press(&session, &err), &err);
+    aim(x, y);
+    assert_ok(session_drag(&session, &err), &err);
     assert_ok(session_release(&session, &err), &err);
 }
 
@@ -185,6 +188,7 @@ static void work_that_was_not_saved_is_taken_up_again(void **state)
     assert_ok(session_open(&session, "new.oct", 5, true, &err), &err);
     assert_script("depth 5\nchip sphere 0.3 0.3 1 0.08\n");
     assert_true(session.unsaved);
+    assert_false(session.log_lost);
     session_clear(&session);
     assert_ok(journal_is_left("new.oct", &left, &err), &err);
     assert_false(left);

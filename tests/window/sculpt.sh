@@ -1,6 +1,7 @@
 # A hand carves: each tool, wheel, mirror, undo, redo, save, save as, quit-and-ask, resize. What it leaves behind is the
 # sculpture that its chip script makes. PICTURES, if set, is a folder for a screenshot of each scene, to be looked at.
 . "$CASES/lib.sh"
+PATH=$SCULPT:$PATH
 
 journal=a.oct.journal
 
@@ -8,7 +9,8 @@ open_sculptor() # ARGUMENT...
 {
     balloon-sculpt "$@" >log 2>said </dev/null &
     program=$!
-    window=$(xdotool search --sync --onlyvisible --pid "$program" | tail -n 1)
+    window=$(timeout 60 xdotool search --sync --onlyvisible --name "balloon-sculpt" | tail -n 1)
+    [ -n "$window" ] || fail "no window"
     xdotool windowfocus "$window" 2>/dev/null || true
     at 10 10
     settle
@@ -68,6 +70,8 @@ press b
 click 480 360
 journal_has '^chip box 0\.4[0-9]* 0\.4[0-9]* 0\.9[0-9]* 0\.5[0-9]* 0\.5[0-9]* 1\.0'
 journal_has '^step'
+
+[ "$(grep -c '^chip' "$journal")" = 1 ] || fail "one click was more than one chip"
 
 press s
 xdotool keydown ctrl click 4 click 4 click 4 keyup ctrl # a larger brush: 0.08 x 1.1^3
@@ -135,13 +139,13 @@ until [ -s a.oct ]; do
     sleep 0.05
 done
 cp "$journal" replay.chips
-balloon-sculpt -q --script replay.chips -o replay.oct
+balloon-sculpt -q --script replay.chips --depth 5 -o replay.oct
 same_cells a.oct replay.oct
 
 # unsaved work is asked for
 press 1 s
 click 300 300
-xdotool windowquit "$window"
+"$ASK_TO_CLOSE" "$window"
 settle
 picture question
 kill -0 "$program" || fail "the window closed with unsaved work"
