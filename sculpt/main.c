@@ -132,8 +132,8 @@ static enum status check_options(const struct options *options, struct error *er
     if (mesh && options->depth >= 0 && options->depth < VOXELISE_DEPTH_MIN)
         return error_set(err, STATUS_USAGE, "--depth %ld: a mesh needs one from %d to %d", options->depth,
                          VOXELISE_DEPTH_MIN, OCTREE_DEPTH_MAX);
-    if (options->depth >= 0 &&
-        ((options->import && !mesh) || (options->file && !access(options->file, F_OK))))
+    const bool begun = options->file && (asks_for_result(options) || !access(options->file, F_OK));
+    if (options->depth >= 0 && ((options->import && !mesh) || begun))
         return error_set(err, STATUS_USAGE,
                          "--depth %ld: %s has its own; give --depth for a new cube or a mesh only",
                          options->depth, options->import ? options->import : options->file);
