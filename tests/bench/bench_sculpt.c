@@ -1,5 +1,6 @@
 /* How fast chips, undo, smoothing and rays are, and what bounds each. */
 #include "common/random.h"
+#include "sculpt/bricks.h"
 #include "sculpt/history.h"
 #include "sculpt/sculpt.h"
 #include "support/bench.h"
@@ -150,6 +151,45 @@ static void bench_rays(unsigned depth, bool random, int count, double target)
     octree_clear(&tree);
 }
 
+/* After a chip: the faces of the bricks that it changed, as a window would hand them to the graphics card. */
+static void bench_faces(unsigned depth, double cells, int count)
+{
+    struct error err = {0};
+    struct octree tree = {0};
+    struct history history;
+    struct octree_regions regions;
+    struct brick_faces faces = {0};
+    uint64_t seed = 9;
+    double spent = 0, worst = 0;
+    make(&tree, depth, 1);
+    history_init(&history, 64 << 20);
+    for (int i = 0; i < count; i++) {
+        const struct chip chip = brush(CHIP_CARVE, cells / (1 << depth), &seed);
+        history_begin(&history, &tree);
+        bench_check(sculpt_chip(&tree, &chip, &err), &err);
+        history_end(&history, &tree, &regions);
+        const double began = bench_seconds();
+        for (int k = 0; k < regions.count; k++) {
+            int first[3], last[3], at[3];
+            bricks_of_region(&tree, &regions.items[k], first, last);
+            for (at[2] = first[2]; at[2] <= last[2]; at[2]++)
+                for (at[1] = first[1]; at[1] <= last[1]; at[1]++)
+                    for (at[0] = first[0]; at[0] <= last[0]; at[0]++)
+                        bench_check(brick_find_faces(&tree, at, &faces, &err), &err);
+        }
+        const double took = bench_seconds() - began;
+        spent += took;
+        worst = took > worst ? took : worst;
+    }
+    printf(
+        "%u^3, radius %g: faces ready after a chip in %.2f ms (worst %.2f ms), target 5 ms; bound by the cells of the "
+        "bricks it meets\n",
+        1u << depth, cells, 1e3 * spent / count, 1e3 * worst);
+    free(faces.items);
+    history_clear(&history);
+    octree_clear(&tree);
+}
+
 int main(void)
 {
     printf("%-40s %12s %-10s %9s   %s\n", "sculpt", "", "", "target", "bound by");
@@ -162,5 +202,7 @@ int main(void)
     bench_rays(8, false, 1000000, 1.5e6);
     bench_rays(8, true, 1000000, 1.5e6);
     bench_rays(10, false, 1000000, 0);
+    bench_faces(8, 8, 500);
+    bench_faces(10, 32, 200);
     return 0;
 }
