@@ -26,6 +26,13 @@ struct window {
 static struct window *the_window;
 static jmp_buf failed;
 static char failure[256];
+static bool
+    exiting; /* the process ends: Xlib does that when the display is gone, and freeglut closes windows then */
+
+static void note_exit(void)
+{
+    exiting = true;
+}
 
 static void on_error(const char *format, va_list arguments)
 {
@@ -152,7 +159,7 @@ static void on_timer(int number)
 /* Called before anything is destroyed, on the request of the window manager or in window_free(). */
 static void on_close(void)
 {
-    if (the_window->going)
+    if (exiting || the_window->going)
         return;
     if (!the_window->events->close || the_window->events->close(the_window->self))
         the_window->leaving = true;
@@ -209,6 +216,7 @@ enum status window_open(const char *title, int width, int height, const struct w
         return status;
     }
     the_window = window;
+    atexit(note_exit); /* called before freeglut's own, which is older */
     register_events();
     status = gl_load(&window->gl, window_function, err);
     if (status) {
