@@ -4,7 +4,7 @@
  *
  *     bool left;
  *     if (journal_is_left(path, &left, err)) ...                 somebody else is carving it
- *     if (left && journal_recover(path, &tree, &report, err)) ...
+ *     if (left && journal_recover(path, &tree, &log, &report, err)) ...
  *     if (journal_open(path, cube, &journal, err)) ...           goes on with what is left, or begins
  *     if (journal_append(journal, "chip sphere .5 .5 .5 .2\n", err)) ...       after each operation
  *     if (journal_mark(journal, err) || octree_save(&tree, path, err)) ...     before each save
@@ -37,16 +37,12 @@ struct journal_report {
 };
 
 /* Makes *tree (valid; it is replaced, or as it was after a failure) what the journal of the sculpture `path` leads
- * to: all operations up to the last whole line. The files stay as they are. Errors: STATUS_INPUT when the sculpture
- * was changed by something else since, or the journal is none; STATUS_RESOURCE when another program has it open;
+ * to: all operations up to the last whole line. *log (overwritten; free it with bytes_clear()) is the chip log of the
+ * result, {0} when what the journal begins from has none; it may be NULL. The files stay as they are.
+ * Errors: STATUS_INPUT when the sculpture was changed by something else since, or the journal is none; STATUS_RESOURCE when another program has it open;
  * STATUS_FILE, STATUS_NO_MEMORY. */
-enum status journal_recover(const char *path, struct octree *tree, struct journal_report *report,
-                            struct error *err);
-
-/* The same, and *log (overwritten; free it with bytes_clear()) is the chip log of the result; {0} when what the journal
- * begins from has none. */
-enum status journal_recover_with(const char *path, struct octree *tree, struct bytes *log,
-                                 struct journal_report *report, struct error *err);
+enum status journal_recover(const char *path, struct octree *tree, struct bytes *log,
+                            struct journal_report *report, struct error *err);
 
 /* Opens the journal of the sculpture `path` for appending and locks it. One that is left is gone on with (what is
  * behind its last whole line is cut off; a step ends there); else a new one begins: from the file, or, where

@@ -186,14 +186,8 @@ static void recovery_clear(struct recovery *recovery)
     free(recovery->base);
 }
 
-enum status journal_recover(const char *path, struct octree *tree, struct journal_report *report,
-                            struct error *err)
-{
-    return journal_recover_with(path, tree, NULL, report, err);
-}
-
-enum status journal_recover_with(const char *path, struct octree *tree, struct bytes *log,
-                                 struct journal_report *report, struct error *err)
+enum status journal_recover(const char *path, struct octree *tree, struct bytes *log,
+                            struct journal_report *report, struct error *err)
 {
     struct recovery recovery;
     struct octree made = {0};

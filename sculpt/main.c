@@ -237,7 +237,7 @@ static enum status recover(const char *path, struct work *work, struct error *er
 {
     struct journal_report report;
     struct bytes log = {0};
-    enum status status = journal_recover_with(path, &work->tree, &log, &report, err);
+    enum status status = journal_recover(path, &work->tree, &log, &report, err);
     if (!status && log.data)
         status = octree_chunks_put(&work->chunks, OCTREE_CHUNK_LOG, &log, err);
     bytes_clear(&log);

@@ -35,8 +35,7 @@ static enum status load(struct session *session, struct error *err)
 static enum status recover_work(struct session *session, struct error *err)
 {
     struct journal_report report;
-    enum status status = journal_recover_with(session->path, &session->tree, &session->log_before, &report,
-                                              err);
+    enum status status = journal_recover(session->path, &session->tree, &session->log_before, &report, err);
     if (status)
         return status;
     session->unsaved = report.unsaved;

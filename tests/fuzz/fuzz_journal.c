@@ -39,7 +39,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     FILE *stream = fopen(name, "wb");
     must(stream && fwrite(text, 1, size, stream) == size && !fclose(stream));
     free(text);
-    enum status status = journal_recover(path, &tree, &report, &err);
+    enum status status = journal_recover(path, &tree, NULL, &report, &err);
     must_say(status, &err);
     if (status) {
         must(tree.blocks == NULL);
@@ -47,7 +47,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         must(journal_open(path, NULL, &journal, &err) == STATUS_OK);
         must(journal_mark(journal, &err) == STATUS_OK);
         journal_close(journal, false);
-        must(journal_recover(path, &again, &report, &err) == STATUS_OK && report.lost_bytes == 0);
+        must(journal_recover(path, &again, NULL, &report, &err) == STATUS_OK && report.lost_bytes == 0);
         must(octree_equal(&tree, &again));
     }
     octree_clear(&tree);

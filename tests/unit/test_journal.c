@@ -68,7 +68,7 @@ static struct journal_report assert_recovers(const char *script)
     struct error err = {0};
     struct octree tree = {0}, wanted = carved(script);
     struct journal_report report;
-    assert_ok(journal_recover("a.oct", &tree, &report, &err), &err);
+    assert_ok(journal_recover("a.oct", &tree, NULL, &report, &err), &err);
     assert_true(octree_equal(&tree, &wanted));
     octree_clear(&tree);
     octree_clear(&wanted);
@@ -152,7 +152,7 @@ static void the_chip_log_goes_on_through_a_recovery(void **state)
         struct journal *journal = begin();
         append(journal, TWO "step\n" THREE "undo\n");
         journal_close(journal, false);
-        assert_ok(journal_recover_with("a.oct", &tree, &log, &report, &err), &err);
+        assert_ok(journal_recover("a.oct", &tree, &log, &report, &err), &err);
         assert_ok(chip_log_holds(&log, &tree, &holds, &err), &err);
         assert_true(holds);
         assert_true(strstr((const char *)log.data, "heat") && !strstr((const char *)log.data, "fill"));
@@ -202,10 +202,10 @@ static void another_version_of_the_sculpture_is_refused(void **state)
     append(journal, THREE);
     journal_close(journal, false);
     save_carved(THREE, "a.oct");
-    assert_refused(journal_recover("a.oct", &tree, &report, &err), STATUS_INPUT,
+    assert_refused(journal_recover("a.oct", &tree, NULL, &report, &err), STATUS_INPUT,
                    "a.oct.journal: belongs to another version of a.oct", &err);
     unlink(BASE);
-    assert_refused(journal_recover("a.oct", &tree, &report, &err), STATUS_INPUT,
+    assert_refused(journal_recover("a.oct", &tree, NULL, &report, &err), STATUS_INPUT,
                    "belongs to another version of a.oct", &err);
     assert_int_equal(octree_at(&tree, 0, 0, 0), 5);
     octree_clear(&tree);
@@ -223,7 +223,7 @@ static void only_one_program_writes(void **state)
     const char *said = "a.oct: another balloon-sculpt is carving this sculpture";
     assert_refused(journal_open("a.oct", &tree, &other, &err), STATUS_RESOURCE, said, &err);
     assert_refused(journal_is_left("a.oct", &left, &err), STATUS_RESOURCE, said, &err);
-    assert_refused(journal_recover("a.oct", &tree, &report, &err), STATUS_RESOURCE, said, &err);
+    assert_refused(journal_recover("a.oct", &tree, NULL, &report, &err), STATUS_RESOURCE, said, &err);
     assert_refused(journal_remove("a.oct", &err), STATUS_RESOURCE, said, &err);
     journal_close(journal, true);
     assert_ok(journal_is_left("a.oct", &left, &err), &err);
@@ -339,11 +339,11 @@ static void a_journal_cut_at_any_byte_recovers_to_an_operation(void **state)
             size_t lines = lines_in(&bytes, end);
             write_bytes(JOURNAL, bytes.data, end);
             if (lines == 0 && !with_file) { /* what the cube was is not known yet, and nothing was done */
-                assert_refused(journal_recover("a.oct", &tree, &report, &err), STATUS_INPUT,
+                assert_refused(journal_recover("a.oct", &tree, NULL, &report, &err), STATUS_INPUT,
                                "nothing was written to it yet", &err);
                 continue;
             }
-            assert_ok(journal_recover("a.oct", &tree, &report, &err), &err);
+            assert_ok(journal_recover("a.oct", &tree, NULL, &report, &err), &err);
             assert_int_equal(report.operations, lines ? lines - 1 : 0);
             assert_chips(&tree, report.operations);
             octree_clear(&tree);
@@ -369,7 +369,7 @@ static void a_journal_with_any_bit_flipped_recovers_what_is_before(void **state)
         bytes.data[bit / 8] ^= (unsigned char)(1u << bit % 8);
         write_bytes(JOURNAL, bytes.data, bytes.size);
         bytes.data[bit / 8] ^= (unsigned char)(1u << bit % 8);
-        enum status status = journal_recover("a.oct", &tree, &report, &err);
+        enum status status = journal_recover("a.oct", &tree, NULL, &report, &err);
         assert_int_equal(status, line == 0 ? STATUS_INPUT : STATUS_OK);
         if (status)
             continue;
@@ -423,7 +423,7 @@ static void a_program_killed_at_any_moment_loses_nothing_that_was_appended(void 
         kill(child, SIGKILL);
         waitpid(child, &ended, 0);
         assert_true(*appended >= wanted);
-        assert_ok(journal_recover("a.oct", &tree, &report, &err), &err);
+        assert_ok(journal_recover("a.oct", &tree, NULL, &report, &err), &err);
         assert_true(report.operations == *appended || report.operations == *appended + 1);
         assert_chips(&tree, report.operations);
         octree_clear(&tree);
@@ -443,7 +443,8 @@ static void a_foreign_file_is_no_journal(void **state)
         struct journal *journal = NULL;
         struct journal_report report;
         write_text(JOURNAL, foreign[i]);
-        assert_refused(journal_recover("a.oct", &tree, &report, &err), STATUS_INPUT, "a.oct.journal: ", &err);
+        assert_refused(journal_recover("a.oct", &tree, NULL, &report, &err), STATUS_INPUT,
+                       "a.oct.journal: ", &err);
         assert_refused(journal_open("a.oct", &tree, &journal, &err), STATUS_INPUT, "a.oct.journal: ", &err);
         assert_int_equal(access(JOURNAL, F_OK), 0);
     }
