@@ -83,60 +83,56 @@ static bool take_block(struct octree *tree, uint32_t *block)
     if (tree->block_count == tree->block_capacity && !grow(tree))
         return false;
     *block = tree->block_count++;
-    if (tree->tape) /* which compares with what is there */
-        memset(tree->blocks + 8 * (size_t)*block, 0, 8 * sizeof *tree->blocks);
     return true;
 }
 
-static void give_block(struct octree *tree, uint32_t block)
+/* A block that was not in use before the tape began is nothing to go back to, and nobody writes there between an undo
+ * and a redo: what it holds need not be noted. */
+bool octree_split(struct octree *tree, const struct octree_eight *children, octree_node *node)
 {
-    node_write(tree, 8 * (size_t)block, tree->free_block);
-    tree->free_block = block;
-    tree->free_count++;
+    uint32_t block;
+    if (!take_block(tree, &block))
+        return false;
+    *node = OCTREE_SPLIT + block;
+    if (tree->tape && block < tree->tape->before.block_count)
+        node_write_eight(tree, *node, children);
+    else
+        memcpy(tree->blocks + 8 * (size_t)block, children, sizeof *children);
+    return true;
 }
 
-static bool agree(const octree_node children[8])
+void octree_give(struct octree *tree, octree_node node)
 {
-    octree_node differences = 0;
-    for (int i = 1; i < 8; i++)
-        differences |= children[i] ^ children[0];
-    return differences == 0 && !node_is_split(children[0]);
+    node_write(tree, node_children(node), tree->free_block);
+    tree->free_block = node & ~OCTREE_SPLIT;
+    tree->free_count++;
 }
 
 bool octree_join(struct octree *tree, const octree_node children[8], octree_node *node)
 {
-    if (agree(children)) {
-        *node = children[0];
-        return true;
-    }
-    uint32_t block;
-    if (!take_block(tree, &block))
-        return false;
-    if (tree->tape)
-        for (int i = 0; i < 8; i++)
-            node_write(tree, 8 * (size_t)block + i, children[i]);
-    else
-        memcpy(tree->blocks + 8 * (size_t)block, children, 8 * sizeof *children);
-    *node = OCTREE_SPLIT + block;
+    const struct octree_eight eight = eight_load(children);
+    if (!eight_agree(&eight))
+        return octree_split(tree, &eight, node);
+    *node = children[0];
     return true;
 }
 
 octree_node octree_merge(struct octree *tree, octree_node node)
 {
-    const octree_node *children = tree->blocks + node_children(node);
-    if (!agree(children))
+    const struct octree_eight children = eight_load(tree->blocks + node_children(node));
+    if (!eight_agree(&children))
         return node;
-    octree_node leaf = children[0];
-    give_block(tree, node & ~OCTREE_SPLIT);
-    return leaf;
+    octree_give(tree, node);
+    return children.low[0];
 }
 
 void octree_release(struct octree *tree, octree_node node)
 {
     if (!node_is_split(node))
         return;
-    for (int i = 0; i < 8; i++)
-        if (node_is_split(tree->blocks[node_children(node) + i]))
+    const struct octree_eight children = eight_load(tree->blocks + node_children(node));
+    if (eight_split(&children))
+        for (int i = 0; i < 8; i++)
             octree_release(tree, tree->blocks[node_children(node) + i]);
-    give_block(tree, node & ~OCTREE_SPLIT);
+    octree_give(tree, node);
 }

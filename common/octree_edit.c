@@ -2,6 +2,7 @@
 #include "common/octree_blocks.h"
 
 #include <assert.h>
+#include <string.h>
 
 struct edit {
     struct octree *tree;
@@ -21,48 +22,106 @@ static inline void note_change(struct edit *edit, const double corner[3], double
     }
 }
 
-static octree_node edit_node(struct edit *edit, octree_node node, const double corner[3], double side,
-                             unsigned level);
-
-/* The children that a shape may cover something of, as a set of bits; and the first of such a set. */
-static inline unsigned touched(struct octree_cover cover)
+/* A node that the shape covers wholly. */
+static octree_node take_whole(struct edit *edit, octree_node node, const double corner[3], double side)
 {
-    return ~cover.outside & 0xff;
+    if (edit->tape)
+        note_change(edit, corner, side);
+    octree_release(edit->tree, node);
+    return edit->material;
 }
+
+/* What becomes of a cube of eight cells of which the shape takes some. Whether it was split and whether it will be is
+ * chance, so that nothing else here branches. */
+static octree_node edit_cells(struct edit *edit, unsigned inside, octree_node node, const double corner[3],
+                              double side)
+{
+    if (inside == 0 || node == edit->material)
+        return node;
+    if (edit->tape)
+        note_change(edit, corner, side);
+    const struct octree_eight was = eight_of(edit->tree, node);
+    const struct octree_eight is = eight_blend(&was, edit->material, inside);
+    if (eight_agree(&is)) {
+        if (node_is_split(node))
+            octree_give(edit->tree, node);
+        return is.low[0];
+    }
+    if (node_is_split(node))
+        node_write_eight(edit->tree, node, &is);
+    else if (!octree_split(edit->tree, &is, &node))
+        edit->failed = true;
+    return node;
+}
+
+/* Eight cubes that a shape may change some of. */
+struct parts {
+    double corner[2][3]; /* of the lower and of the upper ones */
+    double side;
+    unsigned level;  /* the number of halvings that are left to them */
+    unsigned change; /* those that the shape covers something of and that are not what it makes already */
+    unsigned inside; /* those that it covers wholly */
+    unsigned char cells[8]; /* at level 1: the cells that it covers */
+};
 
 static inline int first_of(unsigned children)
 {
     return __builtin_ctz(children);
 }
 
-/* The node that takes the place of child i of a cube, which is one of those touched. `level` is the
- * number of halvings that are left to the child. */
-static inline octree_node edit_child(struct edit *edit, struct octree_cover cover, octree_node child, int i,
-                                     const double corner[3], double side, unsigned level)
+static inline void corner_of(const struct parts *parts, int i, double corner[3])
 {
-    if (child == edit->material || edit->failed)
-        return child;
-    const double at[3] = {corner[0] + (i & 1 ? side : 0), corner[1] + (i & 2 ? side : 0),
-                          corner[2] + (i & 4 ? side : 0)};
-    if (cover.inside >> i & 1) {
-        if (edit->tape)
-            note_change(edit, at, side);
-        if (node_is_split(child))
-            octree_release(edit->tree, child);
-        return edit->material;
+    for (int k = 0; k < 3; k++)
+        corner[k] = parts->corner[i >> k & 1][k];
+}
+
+static struct parts parts_of(const struct edit *edit, octree_node node, const double corner[3], double side,
+                             unsigned level)
+{
+    const struct octree_cover cover = edit->covers(edit->shape, corner, side, false);
+    const struct octree_eight children = eight_of(edit->tree, node);
+    struct parts parts = {.side = side, .level = level, .inside = cover.inside};
+    for (int k = 0; k < 3; k++) {
+        parts.corner[0][k] = corner[k];
+        parts.corner[1][k] = corner[k] + side;
     }
-    return edit_node(edit, child, at, side, level);
+    parts.change = ~cover.outside & 0xff & ~eight_equal(&children, edit->material);
+    if (level > 1)
+        return parts;
+    memset(parts.cells, 0xff, sizeof parts.cells);
+    for (unsigned left = parts.change & ~cover.inside; left != 0; left &= left - 1) {
+        double at[3];
+        corner_of(&parts, first_of(left), at);
+        parts.cells[first_of(left)] = (unsigned char)edit->covers(edit->shape, at, side / 2, true).inside;
+    }
+    return parts;
+}
+
+static octree_node edit_node(struct edit *edit, octree_node node, const double corner[3], double side,
+                             unsigned level);
+
+/* The node that takes the place of one of the parts, which is to change. */
+static inline octree_node edit_part(struct edit *edit, const struct parts *parts, int i, octree_node part)
+{
+    double corner[3];
+    corner_of(parts, i, corner);
+    if (edit->failed)
+        return part;
+    if (parts->level == 1)
+        return edit_cells(edit, parts->cells[i], part, corner, parts->side);
+    if (!(parts->inside >> i & 1))
+        return edit_node(edit, part, corner, parts->side, parts->level);
+    return take_whole(edit, part, corner, parts->side);
 }
 
 /* Children are made on the stack, so that a leaf whose children end up alike costs no block. */
-static octree_node edit_leaf(struct edit *edit, struct octree_cover cover, octree_node leaf,
-                             const double corner[3], double half, unsigned level)
+static octree_node edit_leaf(struct edit *edit, const struct parts *parts, octree_node leaf)
 {
     octree_node children[8], node;
     for (int i = 0; i < 8; i++)
         children[i] = leaf;
-    for (unsigned left = touched(cover); left != 0; left &= left - 1)
-        children[first_of(left)] = edit_child(edit, cover, leaf, first_of(left), corner, half, level);
+    for (unsigned left = parts->change; left != 0; left &= left - 1)
+        children[first_of(left)] = edit_part(edit, parts, first_of(left), leaf);
     if (octree_join(edit->tree, children, &node))
         return node;
     edit->failed = true;
@@ -71,30 +130,12 @@ static octree_node edit_leaf(struct edit *edit, struct octree_cover cover, octre
     return leaf;
 }
 
-/* The same for children that are cells: they are leaves and are not crossed. */
-static octree_node edit_cells(struct edit *edit, unsigned inside, octree_node node, const double corner[3],
-                              double side)
+/* Blocks lie anywhere in memory: those of all children are asked for together, not one after the other. */
+static inline void fetch_ahead(const struct octree *tree, octree_node node)
 {
-    octree_node cells[8];
-    if (inside == 0 || node == edit->material)
-        return node;
-    if (edit->tape)
-        note_change(edit, corner, side);
-    if (node_is_split(node)) {
-        octree_node *cell = edit->tree->blocks + node_children(node);
-        if (edit->tape)
-            for (unsigned left = inside; left != 0; left &= left - 1)
-                node_write(edit->tree, node_children(node) + first_of(left), edit->material);
-        else
-            for (int i = 0; i < 8; i++)
-                cell[i] = inside >> i & 1 ? edit->material : cell[i];
-        return octree_merge(edit->tree, node);
-    }
+    const octree_node *children = tree->blocks + node_children(node);
     for (int i = 0; i < 8; i++)
-        cells[i] = inside >> i & 1 ? edit->material : node;
-    if (!octree_join(edit->tree, cells, &node))
-        edit->failed = true;
-    return node;
+        __builtin_prefetch(tree->blocks + node_children(node_is_split(children[i]) ? children[i] : node));
 }
 
 /* The node that takes the place of one that the shape crosses. */
@@ -102,17 +143,17 @@ static octree_node edit_node(struct edit *edit, octree_node node, const double c
                              unsigned level)
 {
     const double half = side / 2;
-    level--;
-    struct octree_cover cover = edit->covers(edit->shape, corner, half, level == 0);
-    if (level == 0)
-        return edit_cells(edit, cover.inside, node, corner, side);
+    if (level == 1)
+        return edit_cells(edit, edit->covers(edit->shape, corner, half, true).inside, node, corner, side);
+    if (node_is_split(node))
+        fetch_ahead(edit->tree, node);
+    const struct parts parts = parts_of(edit, node, corner, half, level - 1);
     if (!node_is_split(node))
-        return edit_leaf(edit, cover, node, corner, half, level);
-    for (unsigned left = touched(cover); left != 0; left &= left - 1) {
-        size_t at = node_children(node) + first_of(left);
-        octree_node child = edit->tree->blocks[at];
-        child = edit_child(edit, cover, child, first_of(left), corner, half, level);
-        node_write(edit->tree, at, child); /* blocks may have moved meanwhile */
+        return edit_leaf(edit, &parts, node);
+    for (unsigned left = parts.change; left != 0; left &= left - 1) {
+        const size_t at = node_children(node) + first_of(left);
+        const octree_node part = edit_part(edit, &parts, first_of(left), edit->tree->blocks[at]);
+        node_write(edit->tree, at, part); /* blocks may have moved meanwhile */
     }
     return octree_merge(edit->tree, node);
 }
@@ -134,11 +175,13 @@ enum status octree_apply(struct octree *tree, octree_shape *covers, const void *
     assert(material < OCTREE_MATERIALS);
     struct edit edit = {tree, covers, shape, material, false, tree->tape, {1, 1, 1}, {0}};
     const double corner[3] = {0}; /* the root is the first child of a cube of side 2 */
-    struct octree_cover cover = covers(shape, corner, 1, tree->depth == 0);
-    if (tree->depth == 0)
-        cover.outside = ~cover.inside;
-    if (touched(cover) & 1)
-        tree->root = edit_child(&edit, cover, tree->root, 0, corner, 1, tree->depth);
+    const struct octree_cover cover = covers(shape, corner, 1, tree->depth == 0);
+    if (tree->root == material)
+        return STATUS_OK;
+    if (cover.inside & 1)
+        tree->root = take_whole(&edit, tree->root, corner, 1);
+    else if (tree->depth > 0 && !(cover.outside & 1))
+        tree->root = edit_node(&edit, tree->root, corner, 1, tree->depth);
     if (tree->tape && edit.high[0] > 0)
         note_region(&edit);
     return edit.failed ? error_no_memory(err, "the octree") : STATUS_OK;

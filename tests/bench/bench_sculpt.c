@@ -72,7 +72,7 @@ static void bench_chips(unsigned depth, double cells, int count, double target, 
     history_init(&history, SIZE_MAX);
     double recorded = chip_seconds(&tree, radius, count, &history);
     snprintf(what, sizeof what, "the same, recorded for undo");
-    report(what, "a second", 1 / recorded, target, "the chip; the tape adds what it writes");
+    report(what, "a second", 1 / recorded, target, "the chip; the bytes it keeps, which go to memory");
     size_t steps = history.count;
     double start = bench_seconds();
     while (history_undo(&history, &tree, NULL))

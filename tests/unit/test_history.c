@@ -352,8 +352,12 @@ static void a_step_larger_than_the_limit_is_done_but_ends_the_history(void **sta
     struct history history;
     struct octree tree = new_tree(7, 1), plain = new_tree(7, 1);
     const struct chip small = {.shape = CHIP_SPHERE, .value = {0.1, 0.1, 0.1, 0.02}},
-                      large = {.shape = CHIP_SPHERE, .value = {0.5, 0.5, 0.5, 0.4}};
-    history_init(&history, 50000);
+                      hollow = {.shape = CHIP_SPHERE, .value = {0.5, 0.5, 0.5, 0.4}},
+                      large = {.shape = CHIP_SPHERE, .value = {0.5, 0.5, 0.5, 0.41}};
+    assert_ok(sculpt_chip(&tree, &hollow, &err), &err);
+    assert_ok(sculpt_chip(&plain, &hollow, &err), &err);
+    history_init(&history,
+                 50000); /* the ball has 33,000 cells at its skin, most of them written at 8 bytes each */
     do_step(&history, &tree, &small, 1);
     history_begin(&history, &tree);
     assert_ok(sculpt_chip(&tree, &large, &err), &err);
