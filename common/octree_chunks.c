@@ -37,6 +37,17 @@ enum status octree_chunks_put(struct octree_chunks *chunks, const char *name, st
     return STATUS_OK;
 }
 
+void octree_chunks_drop(struct octree_chunks *chunks, const char *name)
+{
+    struct octree_chunk *chunk = find(chunks, name);
+    if (!chunk)
+        return;
+    bytes_clear(&chunk->data);
+    const size_t behind = (size_t)(chunks->items + chunks->count - (chunk + 1));
+    memmove(chunk, chunk + 1, behind * sizeof *chunk);
+    chunks->count--;
+}
+
 void octree_chunks_clear(struct octree_chunks *chunks)
 {
     for (size_t i = 0; i < chunks->count; i++)

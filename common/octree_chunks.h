@@ -48,6 +48,9 @@ const struct octree_chunk *octree_chunks_find(const struct octree_chunks *chunks
 enum status octree_chunks_put(struct octree_chunks *chunks, const char *name, struct bytes *data,
                               struct error *err);
 
+/* Takes the chunk of this name out, if there is one. */
+void octree_chunks_drop(struct octree_chunks *chunks, const char *name);
+
 void octree_chunks_clear(struct octree_chunks *chunks);
 
 #endif

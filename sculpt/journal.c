@@ -140,19 +140,34 @@ static enum status keep_base(struct journal *journal, const char *path, struct j
     return status;
 }
 
-static enum status begin(struct journal *journal, const char *path, const struct octree *cube,
+/* What has no file yet gets one beside the journal. */
+static enum status make_base(struct journal *journal, const struct octree *tree, struct journal_start *start,
+                             struct error *err)
+{
+    struct bytes file = {0};
+    enum status status = octree_save(tree, journal->base, err);
+    if (!status)
+        status = file_read(journal->base, &file, err);
+    if (!status)
+        start->hash = journal_hash(&file);
+    bytes_clear(&file);
+    return status;
+}
+
+static enum status begin(struct journal *journal, const char *path, const struct octree *tree,
                          struct error *err)
 {
-    struct journal_start start = {.is_cube = access(path, F_OK) != 0};
+    const bool exists = !access(path, F_OK);
+    struct journal_start start = {.is_cube = !exists && tree->root < OCTREE_MATERIALS};
     char first[JOURNAL_FIRST_SIZE + 1];
     if (ftruncate(journal->file, 0))
         return error_set_errno(err, journal->path, "write");
     if (start.is_cube) {
-        assert(cube->root < OCTREE_MATERIALS);
-        start.depth = cube->depth;
-        start.material = cube->root;
+        start.depth = tree->depth;
+        start.material = tree->root;
     } else {
-        enum status status = keep_base(journal, path, &start, err);
+        enum status status = exists ? keep_base(journal, path, &start, err)
+                                    : make_base(journal, tree, &start, err);
         if (status)
             return status;
     }
@@ -171,7 +186,7 @@ static enum status go_on(struct journal *journal, const struct journal_text *tex
     return text->operations > 0 ? journal_append(journal, "step\n", err) : STATUS_OK;
 }
 
-static enum status open_file(struct journal *journal, const char *path, const struct octree *cube,
+static enum status open_file(struct journal *journal, const char *path, const struct octree *tree,
                              struct error *err)
 {
     struct bytes file = {0};
@@ -187,7 +202,7 @@ static enum status open_file(struct journal *journal, const char *path, const st
         return err ? error_prefix(err, journal->path) : status;
     if (text.begun)
         return go_on(journal, &text, err);
-    status = begin(journal, path, cube, err);
+    status = begin(journal, path, tree, err);
     if (status) {
         unlink(journal->path);
         unlink(journal->base);
@@ -195,7 +210,7 @@ static enum status open_file(struct journal *journal, const char *path, const st
     return status;
 }
 
-enum status journal_open(const char *path, const struct octree *cube, struct journal **result,
+enum status journal_open(const char *path, const struct octree *tree, struct journal **result,
                          struct error *err)
 {
     struct journal *journal = calloc(1, sizeof *journal);
@@ -204,12 +219,77 @@ enum status journal_open(const char *path, const struct octree *cube, struct jou
     journal->file = -1;
     journal->path = journal_path(path, JOURNAL_SUFFIX);
     journal->base = journal_path(path, JOURNAL_BASE_SUFFIX);
-    enum status status = journal->path && journal->base ? open_file(journal, path, cube, err)
+    enum status status = journal->path && journal->base ? open_file(journal, path, tree, err)
                                                         : error_no_memory(err, "the journal");
     if (status)
         journal_close(journal, false);
     else
         *result = journal;
+    return status;
+}
+
+static enum status link_or_copy(const char *from, const char *to, struct error *err)
+{
+    struct bytes file = {0};
+    unlink(to);
+    if (!link(from, to))
+        return STATUS_OK;
+    enum status status = file_read(from, &file, err);
+    if (!status)
+        status = copy_file(&file, to, err);
+    bytes_clear(&file);
+    return status;
+}
+
+/* To another file system: a file of its own, locked before it has the name. */
+static enum status copy_journal(struct journal *journal, const char *to, struct error *err)
+{
+    enum status status = link_or_copy(journal->path, to, err);
+    int file = status ? -1 : open(to, O_RDWR | O_APPEND | O_CLOEXEC);
+    if (!status && file < 0)
+        status = error_set_errno(err, to, "open");
+    if (!status)
+        status = lock(file, LOCK_EX, to, err);
+    if (status) {
+        if (file >= 0)
+            close(file);
+        unlink(to);
+        return status;
+    }
+    close(journal->file);
+    journal->file = file;
+    unlink(journal->path);
+    return STATUS_OK;
+}
+
+static enum status move_files(struct journal *journal, const char *path, const char *base, struct error *err)
+{
+    const bool has_base = !access(journal->base, F_OK);
+    enum status status = has_base ? link_or_copy(journal->base, base, err) : STATUS_OK;
+    if (!status && rename(journal->path, path))
+        status = errno == EXDEV ? copy_journal(journal, path, err)
+                                : error_set_errno(err, path, "make the journal");
+    if (has_base)
+        unlink(status ? base : journal->base);
+    return status;
+}
+
+/* The base first: at each moment one of both names has a journal with its base. */
+enum status journal_move(struct journal *journal, const char *sculpture, struct error *err)
+{
+    char *path = journal_path(sculpture, JOURNAL_SUFFIX),
+         *base = journal_path(sculpture, JOURNAL_BASE_SUFFIX);
+    enum status status = path && base ? move_files(journal, path, base, err)
+                                      : error_no_memory(err, "the journal");
+    if (!status) {
+        char *old_path = journal->path, *old_base = journal->base;
+        journal->path = path;
+        journal->base = base;
+        path = old_path;
+        base = old_base;
+    }
+    free(path);
+    free(base);
     return status;
 }
 

@@ -5,7 +5,7 @@
  *     bool left;
  *     if (journal_is_left(path, &left, err)) ...                 somebody else is carving it
  *     if (left && journal_recover(path, &tree, &log, &report, err)) ...
- *     if (journal_open(path, cube, &journal, err)) ...           goes on with what is left, or begins
+ *     if (journal_open(path, &tree, &journal, err)) ...           goes on with what is left, or begins
  *     if (journal_append(journal, "chip sphere .5 .5 .5 .2\n", err)) ...       after each operation
  *     if (journal_mark(journal, err) || octree_save(&tree, path, err)) ...     before each save
  *     journal_close(journal, true);                              true: nothing in it is wanted any more
@@ -46,9 +46,9 @@ enum status journal_recover(const char *path, struct octree *tree, struct bytes 
 
 /* Opens the journal of the sculpture `path` for appending and locks it. One that is left is gone on with (what is
  * behind its last whole line is cut off; a step ends there); else a new one begins: from the file, or, where
- * there is no file, from *cube (an octree of a single leaf; else it is not looked at). Errors: STATUS_RESOURCE when
+ * there is no file, from *tree. Errors: STATUS_RESOURCE when
  * another program has it open; STATUS_INPUT, STATUS_FILE, STATUS_NO_MEMORY. */
-enum status journal_open(const char *path, const struct octree *cube, struct journal **journal,
+enum status journal_open(const char *path, const struct octree *tree, struct journal **journal,
                          struct error *err);
 
 /* Appends lines of a script, each ending in a line feed, by one write. chip_write() makes them. After a failure
@@ -57,6 +57,10 @@ enum status journal_append(struct journal *journal, const char *lines, struct er
 
 /* Notes that what there is now is about to be saved to the sculpture's own file. Errors as journal_append(). */
 enum status journal_mark(struct journal *journal, struct error *err);
+
+/* What is carved was saved as another file, behind a mark: the journal goes along, with all there was before, in place of
+ * one that is left there. Errors: STATUS_FILE, STATUS_NO_MEMORY; then it is where it was. */
+enum status journal_move(struct journal *journal, const char *sculpture, struct error *err);
 
 /* Closes and frees it; with `discard` it is removed, and the base beside it. NULL is fine. */
 void journal_close(struct journal *journal, bool discard);

@@ -1,27 +1,26 @@
 /* balloon-sculpt: carve a sculpture in an octree. */
 #include "common/array.h"
 #include "common/command.h"
-#include "common/file.h"
 #include "common/octree_chunks.h"
-#include "render/render.h"
 #include "sculpt/chip_log.h"
-#include "sculpt/coarse.h"
 #include "sculpt/export.h"
+#include "sculpt/import.h"
 #include "sculpt/info.h"
 #include "sculpt/journal.h"
+#include "sculpt/main_picture.h"
 #include "sculpt/sculpt.h"
-#include "sculpt/voxelise.h"
+#include "sculpt/session.h"
 #include "sculpt/window.h"
 
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 enum {
     DEPTH_DEFAULT = 6,
-    PREVIEW_WIDTH = 256,
-    PREVIEW_HEIGHT = 192,
-    PREVIEW_DEPTH = 7, /* more cells than pixels show nothing more */
+    UNDO_MEGABYTES_DEFAULT = SESSION_HISTORY_BYTES >> 20,
+    UNDO_MEGABYTES_MAX = 65536,
 };
 
 enum option_key {
@@ -33,6 +32,7 @@ enum option_key {
     OPTION_DEPTH,
     OPTION_SOLID,
     OPTION_RECOVER,
+    OPTION_UNDO_MEMORY,
 };
 
 static const struct argp_option option_list[] = {
@@ -49,6 +49,8 @@ static const struct argp_option option_list[] = {
      "write .vox (MagicaVoxel), .ply (the faces of the cubes) or .chips (a script); may be repeated", 0},
     {"render", OPTION_RENDER, "FILE.png", 0, "draw the sculpture", 0},
     {"info", OPTION_INFO, NULL, 0, "print its figures", 0},
+    {"undo-memory", OPTION_UNDO_MEMORY, "MB", 0,
+     "what the window keeps to undo, 1 to 65536 (256); the oldest steps go first", 0},
     {"quiet", 'q', NULL, 0, "no notes and no progress", 0},
     {0},
 };
@@ -57,7 +59,7 @@ struct options {
     const char *file, *script, *import, *output, *picture;
     const char **exports;
     size_t export_count;
-    long depth; /* -1: not given */
+    long depth, undo_megabytes; /* depth -1: not given */
     bool info, solid, recover;
 };
 
@@ -95,6 +97,9 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
     case OPTION_DEPTH:
         options->depth = command_whole(state, "--depth", argument, 0, OCTREE_DEPTH_MAX);
         return 0;
+    case OPTION_UNDO_MEMORY:
+        options->undo_megabytes = command_whole(state, "--undo-memory", argument, 1, UNDO_MEGABYTES_MAX);
+        return 0;
     case 'o':
         options->output = argument;
         return 0;
@@ -124,7 +129,7 @@ static enum status check_options(const struct options *options, struct error *er
         return error_set(err, STATUS_USAGE, "--import %s and %s: give one of them to begin with",
                          options->import, options->file);
     const bool mesh = options->import && mesh_is_file_name(options->import);
-    if (options->import && !mesh && !file_has_extension(options->import, "vox"))
+    if (options->import && !sculpt_import_is_name(options->import))
         return error_set(err, STATUS_USAGE, "--import %s: .vox, .stl, .ply and .obj are read",
                          options->import);
     if (options->recover && !options->file)
@@ -201,28 +206,23 @@ static enum status carve(const struct options *options, struct work *work, struc
     return status;
 }
 
-/* Models are often shells, and a shell makes a balloon inside a balloon: so hollows are filled, or told of. */
-static enum status fill_hollows(const struct options *options, struct work *work, struct error *err)
+/* Of the material that most cells have. No chip says so: the log is lost with it. */
+static enum status fill_hollows(struct work *work, struct error *err)
 {
     uint64_t cells;
-    if (!options->solid && !options->import)
-        return STATUS_OK;
-    unsigned material = options->solid ? info_main_material(&work->tree) : 0;
-    enum status status = octree_fill_hollows(&work->tree, material, &cells, err);
-    if (!status && cells > 0 && !options->solid)
-        command_note("%s is hollow: %llu cells within are empty; --solid fills them", options->import,
-                     (unsigned long long)cells);
-    if (!status && cells > 0 && options->solid)
-        octree_chunks_clear(&work->chunks); /* no chip says so */
+    enum status status = octree_fill_hollows(&work->tree, info_main_material(&work->tree), &cells, err);
+    if (!status && cells > 0)
+        octree_chunks_drop(&work->chunks, OCTREE_CHUNK_LOG);
     return status;
 }
 
-static enum status import_mesh(const struct options *options, struct octree *tree, struct error *err)
+static enum status import(const struct options *options, struct octree *tree, struct error *err)
 {
     struct voxelise_report report;
+    uint64_t hollow;
     char repairs[256];
     unsigned depth = options->depth >= 0 ? (unsigned)options->depth : VOXELISE_DEPTH_DEFAULT;
-    enum status status = voxelise_load(options->import, depth, tree, &report, err);
+    enum status status = sculpt_import(options->import, depth, tree, &report, &hollow, err);
     if (status)
         return status;
     if (mesh_report_repairs(&report.mesh, repairs, sizeof repairs)[0])
@@ -230,6 +230,9 @@ static enum status import_mesh(const struct options *options, struct octree *tre
     if (report.mesh.boundary_edges > 0)
         command_note("%s: %zu edges are open; its holes were closed as what surrounds them suggests",
                      options->import, report.mesh.boundary_edges);
+    if (hollow > 0 && !options->solid)
+        command_note("%s is hollow: %llu cells within are empty; --solid fills them", options->import,
+                     (unsigned long long)hollow);
     return STATUS_OK;
 }
 
@@ -237,6 +240,9 @@ static enum status recover(const char *path, struct work *work, struct error *er
 {
     struct journal_report report;
     struct bytes log = {0};
+    struct error ignored;
+    (void)octree_load_with(path, &work->tree, &work->chunks, &ignored); /* what else the file carries */
+    octree_chunks_drop(&work->chunks, OCTREE_CHUNK_LOG);
     enum status status = journal_recover(path, &work->tree, &log, &report, err);
     if (!status && log.data)
         status = octree_chunks_put(&work->chunks, OCTREE_CHUNK_LOG, &log, err);
@@ -267,52 +273,14 @@ static enum status make(const struct options *options, struct work *work, struct
     enum status status;
     if (options->file)
         status = load(options, work, err);
-    else if (options->import && mesh_is_file_name(options->import))
-        status = import_mesh(options, &work->tree, err);
     else if (options->import)
-        status = vox_load(options->import, &work->tree, err);
+        status = import(options, &work->tree, err);
     else
         status = octree_init(&work->tree, options->depth >= 0 ? (unsigned)options->depth : DEPTH_DEFAULT, 1,
                              err);
-    if (!status)
-        status = fill_hollows(options, work, err);
+    if (!status && options->solid)
+        status = fill_hollows(work, err);
     return status ? status : carve(options, work, err);
-}
-
-static const struct render_skin clay = {.colour = {0.62f, 0.42f, 0.26f}, .facets = true};
-
-static enum status draw(const struct octree *tree, const char *path, struct error *err)
-{
-    struct mesh mesh = {0};
-    struct render_skin skin = clay;
-    skin.mesh = &mesh;
-    enum status status = sculpt_faces(tree, &mesh, err);
-    status = status ? error_prefix(err, path) : render_still(&skin, path, "balloon-sculpt", err);
-    mesh_clear(&mesh);
-    return status;
-}
-
-/* A sculpture is as good without a preview: what stands in its way is no failure. */
-static void make_preview(struct work *work)
-{
-    struct octree coarse = {0};
-    struct mesh mesh = {0};
-    struct render_skin skin = clay;
-    struct bytes png = {0};
-    struct error err = {0};
-    skin.mesh = &mesh;
-    enum status status = sculpt_coarsen(&work->tree, PREVIEW_DEPTH, &coarse, &err);
-    if (!status)
-        status = sculpt_faces(&coarse, &mesh, &err);
-    if (!status)
-        status = render_still_png(&skin, PREVIEW_WIDTH, PREVIEW_HEIGHT, "balloon-sculpt", &png, &err);
-    if (!status)
-        status = octree_chunks_put(&work->chunks, OCTREE_CHUNK_PREVIEW, &png, &err);
-    if (status && status != STATUS_RANGE) /* nothing is left to be seen */
-        command_note("the sculpture is saved without a preview: %s", err.text);
-    bytes_clear(&png);
-    mesh_clear(&mesh);
-    octree_clear(&coarse);
 }
 
 static enum status save(const struct options *options, struct work *work, struct error *err)
@@ -325,7 +293,9 @@ static enum status save(const struct options *options, struct work *work, struct
                                                 file_same(options->file, options->output));
     if (left && !recovered)
         command_note("%s.journal belongs to the sculpture that is replaced", options->output);
-    make_preview(work);
+    struct error reason = {0};
+    if (picture_preview(&work->tree, &work->chunks, &reason)) /* a sculpture without one is as good */
+        command_note("the sculpture is saved without a preview: %s", reason.text);
     status = octree_save_with(&work->tree, &work->chunks, options->output, err);
     if (!status && left && recovered)
         status = journal_remove(options->output, err);
@@ -338,7 +308,7 @@ static enum status hand_out(const struct options *options, struct work *work, st
     for (size_t i = 0; i < options->export_count && !status; i++)
         status = sculpt_export(&work->tree, &work->chunks, options->exports[i], err);
     if (!status && options->picture)
-        status = draw(&work->tree, options->picture, err);
+        status = picture_draw(&work->tree, options->picture, err);
     if (!status && options->info)
         info_print(&work->tree, &work->chunks, stdout);
     return status;
@@ -347,9 +317,13 @@ static enum status hand_out(const struct options *options, struct work *work, st
 /* Without anything to do for a script it is a person who wants to carve. */
 static enum status open_window(const struct options *options, struct error *err)
 {
-    return sculpt_window(options->file ? options->file : "sculpture.oct",
-                         options->depth >= 0 ? (unsigned)options->depth : DEPTH_DEFAULT, options->recover,
-                         err);
+    const struct sculpt_window_options window = {
+        .path = options->file ? options->file : "sculpture.oct",
+        .depth = options->depth >= 0 ? (unsigned)options->depth : DEPTH_DEFAULT,
+        .recover = options->recover,
+        .undo_memory = (size_t)options->undo_megabytes << 20,
+    };
+    return sculpt_window(&window, err);
 }
 
 static enum status carve_in_batch(const struct options *options, struct error *err)
@@ -381,8 +355,11 @@ int main(int argc, char **argv)
         NULL,
         NULL};
     struct error err = {0};
-    struct options options = {.depth = -1, .exports = array_new((size_t)argc, sizeof *options.exports)};
+    struct options options = {.depth = -1,
+                              .undo_megabytes = UNDO_MEGABYTES_DEFAULT,
+                              .exports = array_new((size_t)argc, sizeof *options.exports)};
     command_begin("balloon-sculpt");
+    signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is an error like a full disk */
     if (!options.exports) {
         error_no_memory(&err, "the options");
         return command_fail(&err);

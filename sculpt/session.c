@@ -1,165 +1,10 @@
 #include "sculpt/session.h"
 
 #include "common/array.h"
-#include "common/octree_chunks.h"
 #include "common/vec3.h"
-#include "sculpt/chip_log.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-static void everything_changed(struct session *session)
-{
-    const int last = (1 << session->tree.depth) - 1;
-    session->changed = (struct octree_regions){0};
-    octree_regions_add(&session->changed, &(struct octree_region){{0, 0, 0}, {last, last, last}});
-}
-
-static enum status load(struct session *session, struct error *err)
-{
-    struct octree_chunks chunks = {0};
-    enum status status = octree_load_with(session->path, &session->tree, &chunks, err);
-    for (size_t i = 0; i < chunks.count && !status; i++)
-        if (!strncmp(chunks.items[i].name, OCTREE_CHUNK_LOG, 4)) {
-            session->log_before = chunks.items[i].data;
-            chunks.items[i].data = (struct bytes){0}; /* it is the session's now */
-        }
-    octree_chunks_clear(&chunks);
-    session->log_lost = !session->log_before.data;
-    return status;
-}
-
-/* Takes up the work of a program that was killed. */
-static enum status recover_work(struct session *session, struct error *err)
-{
-    struct journal_report report;
-    enum status status = journal_recover(session->path, &session->tree, &session->log_before, &report, err);
-    if (status)
-        return status;
-    session->unsaved = report.unsaved;
-    session->log_lost = !session->log_before.data;
-    return STATUS_OK;
-}
-
-/* A sculpture can be carved without a journal (in a folder that is read-only), but not without being told. */
-static enum status begin_journal(struct session *session, struct error *err)
-{
-    struct error reason = {0};
-    enum status status = journal_open(session->path, &session->tree, &session->journal, &reason);
-    if (status == STATUS_FILE) {
-        session->journal = NULL;
-        snprintf(session->warning, sizeof session->warning, "nothing is kept until you save: %.900s",
-                 reason.text);
-        return STATUS_OK;
-    }
-    if (status && err)
-        *err = reason;
-    return status;
-}
-
-static enum status open_tree(struct session *session, unsigned depth, bool recover, struct error *err)
-{
-    bool left = false;
-    enum status status = journal_is_left(session->path, &left, err);
-    if (status)
-        return status;
-    if (left && recover)
-        return recover_work(session, err);
-    if (left)
-        status = journal_remove(session->path, err);
-    if (!status)
-        status = access(session->path, F_OK) ? octree_init(&session->tree, depth, 1, err)
-                                             : load(session, err);
-    return status;
-}
-
-enum status session_open(struct session *session, const char *path, unsigned depth, bool recover,
-                         struct error *err)
-{
-    *session = (struct session){.radius = 0.08, .material = 1, .written = {.material = 1}};
-    history_init(&session->history, SESSION_HISTORY_BYTES);
-    session->path = strdup(path);
-    enum status status = session->path ? open_tree(session, depth, recover, err) : error_no_memory(err, path);
-    if (!status)
-        status = begin_journal(session, err);
-    if (status) {
-        session_clear(session);
-        return status;
-    }
-    session->log.depth = (int)session->tree.depth;
-    session->log.depth_line = 1;
-    session->log.start_material = 1;
-    everything_changed(session);
-    return STATUS_OK;
-}
-
-void session_clear(struct session *session)
-{
-    journal_close(session->journal, true);
-    history_clear(&session->history);
-    octree_clear(&session->tree);
-    chips_clear(&session->log);
-    free(session->step.items);
-    bytes_clear(&session->log_before);
-    free(session->path);
-    *session = (struct session){0};
-}
-
-static enum status save_to(struct session *session, const char *path, struct bytes *preview,
-                           struct error *err)
-{
-    struct octree_chunks chunks = {0};
-    struct bytes log = {0};
-    enum status status = STATUS_OK;
-    if (!session->log_lost) {
-        status = chip_log_write(session->log_before.data ? &session->log_before : NULL, &session->log,
-                                session->tree.depth, &log, err);
-        if (!status)
-            status = octree_chunks_put(&chunks, OCTREE_CHUNK_LOG, &log, err);
-    }
-    if (!status && preview && preview->data)
-        status = octree_chunks_put(&chunks, OCTREE_CHUNK_PREVIEW, preview, err);
-    if (!status)
-        status = octree_save_with(&session->tree, &chunks, path, err);
-    octree_chunks_clear(&chunks);
-    bytes_clear(&log);
-    if (!status)
-        session->unsaved = false;
-    return status;
-}
-
-enum status session_save(struct session *session, struct bytes *preview, struct error *err)
-{
-    enum status status = session->journal ? journal_mark(session->journal, err) : STATUS_OK;
-    return status ? status : save_to(session, session->path, preview, err);
-}
-
-enum status session_save_as(struct session *session, const char *path, struct bytes *preview,
-                            struct error *err)
-{
-    if (file_same(path, session->path))
-        return session_save(session, preview, err);
-    bool left;
-    enum status status = journal_is_left(path, &left, err); /* nobody else is carving it */
-    if (status)
-        return status;
-    char *name = strdup(path);
-    if (!name)
-        return error_no_memory(err, path);
-    status = save_to(session, path, preview, err);
-    if (status) {
-        free(name);
-        return status;
-    }
-    journal_close(session->journal, true);
-    session->journal = NULL;
-    free(session->path);
-    session->path = name;
-    session->written = (struct chip_state){.material = 1};
-    return begin_journal(session, err);
-}
 
 void session_take_changes(struct session *session, struct octree_regions *regions)
 {
@@ -194,6 +39,7 @@ static enum status record(struct session *session, const struct chip *chips, siz
         return status;
     session->written = state;
     session->unsaved = true;
+    session->changes++;
     memcpy(session->log.items + session->log.count, chips, count * sizeof *chips);
     session->log.count += count;
     return STATUS_OK;
@@ -218,16 +64,23 @@ static enum status operate(struct session *session, struct chip *chip, struct er
 static enum status end_step(struct session *session, struct error *err)
 {
     struct octree_regions regions;
-    const bool changed = session->history.tape.count > 0 || session->history.tape.lost;
+    const struct octree_tape *tape = &session->history.tape;
+    const bool changed = tape->count > 0 || tape->lost || tape->before.root != session->tree.root;
+    const size_t done = session->history.done + changed;
     history_end(&session->history, &session->tree, NULL);
+    session->forgotten += done - session->history.done;
     enum status status = STATUS_OK;
     if (changed && session->step.count > 0) {
         session->step.items[session->step.count++] = (struct chip){.kind = CHIP_STEP, .material = 1};
         status = record(session, session->step.items, session->step.count, err);
     }
     session->step.count = 0;
-    if (status && history_undo(&session->history, &session->tree, &regions))
+    if (status && history_undo(&session->history, &session->tree, &regions)) {
         changed_in(session, &regions);
+    } else if (status) {
+        session->unsaved = session->log_lost = true; /* too large a step to be taken back */
+        session->changes++;
+    }
     return status;
 }
 

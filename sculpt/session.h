@@ -13,7 +13,7 @@
 #ifndef SCULPT_SESSION_H
 #define SCULPT_SESSION_H
 
-#include "common/file.h"
+#include "common/octree_chunks.h"
 #include "sculpt/history.h"
 #include "sculpt/journal.h"
 #include "sculpt/sculpt.h"
@@ -32,6 +32,8 @@ enum session_tool {
 };
 extern const char *const session_tool_names[TOOLS];
 
+struct session_save; /* what is being written; session_save.c */
+
 struct session_ray {
     double origin[3], direction[3]; /* direction of unit length */
 };
@@ -46,10 +48,14 @@ struct session {
         struct chip *items;
         size_t count, capacity;
     } step; /* operations of the step that is open; they become the journal's and the log's at its end */
-    struct bytes log_before; /* the chip log that the file had; empty: none */
-    bool log_lost;           /* no script describes what the sculpture began as */
-    char *path;              /* of the .oct */
-    bool unsaved;            /* changed since it was opened or saved */
+    struct bytes log_before;     /* the chip log that the file had; empty: none */
+    bool log_lost;               /* no script describes what the sculpture began as */
+    struct octree_chunks others; /* what its file carries that is not known here */
+    char *path;                  /* of the .oct */
+    bool unsaved;                /* changed since it was opened or saved */
+    size_t changes;              /* how often since it was opened */
+    size_t forgotten; /* steps that can no longer be undone, as there was no more memory for them */
+    struct session_save *saving; /* NULL: nothing is */
     char warning[ERROR_TEXT_SIZE];
 
     enum session_tool tool;
@@ -78,7 +84,15 @@ enum { SESSION_HISTORY_BYTES = 256 << 20 };
 enum status session_open(struct session *session, const char *path, unsigned depth, bool recover,
                          struct error *err);
 
-/* Frees it; the journal is removed: what was not saved is not wanted. */
+/* Begins with this tree, which has no file yet (imported) and is to become `path`: unsaved work, with a journal. The tree
+ * is taken over, and {0} then. Errors: STATUS_FILE when there is such a file, and those of session_open(); then
+ * *session is empty and the tree is the caller's. */
+enum status session_begin(struct session *session, const char *path, struct octree *tree, struct error *err);
+
+/* Steps are kept for undo up to this many bytes (SESSION_HISTORY_BYTES unless this is called); those there are go. */
+void session_limit_undo(struct session *session, size_t bytes);
+
+/* Frees it, waiting for what is being written; the journal is removed: what was not saved is not wanted. */
 void session_clear(struct session *session);
 
 /* Where the pointer is. During a drag the tool goes on from there. */
@@ -99,11 +113,24 @@ bool session_redo(struct session *session, struct error *err);
 void session_resize_brush(struct session *session, int steps);
 void session_sink_brush(struct session *session, int steps);
 
-/* Saves to session->path, with the chip log, and a preview: a PNG's bytes, taken over, or NULL. Errors: STATUS_FILE,
- * STATUS_NO_MEMORY; then the old file, the journal and the session are as they were. */
-enum status session_save(struct session *session, struct bytes *preview, struct error *err);
+/* Saving and exporting write a snapshot on a thread of its own, while carving goes on. One at a time. Each begins with
+ *
+ *     session_save_begin(&session, NULL, &png, &err);        to session->path; with a name: under that one
+ *     session_export_begin(&session, "fox.vox", &err);       a name that sculpt_export_is_name() knows
+ *
+ * and ends when session_write_ended() has said so. `preview` is a PNG's bytes, taken over, or NULL. A name that another
+ * program is carving is refused with STATUS_RESOURCE. Errors: STATUS_FILE, STATUS_NO_MEMORY; then nothing was begun. */
+enum status session_save_begin(struct session *session, const char *path, struct bytes *preview,
+                               struct error *err);
+enum status session_export_begin(struct session *session, const char *path, struct error *err);
 
-/* The same under another name, which the session has from then on. */
+/* True, once, when what was begun has been written, or has failed: then *status says how, and the old file, the journal
+ * and the session are as they were. Under a new name the session is that file's from then on, its journal too. What was
+ * carved meanwhile is unsaved work. With `wait` it returns when that is so. False when nothing was begun. */
+bool session_write_ended(struct session *session, bool wait, enum status *status, struct error *err);
+
+/* Both in one, under session->path or another name. */
+enum status session_save(struct session *session, struct bytes *preview, struct error *err);
 enum status session_save_as(struct session *session, const char *path, struct bytes *preview,
                             struct error *err);
 

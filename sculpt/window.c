@@ -8,7 +8,11 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { WINDOW_WIDTH = 960, WINDOW_HEIGHT = 720 };
+enum {
+    WINDOW_WIDTH = 960,
+    WINDOW_HEIGHT = 720,
+    LOOK_MILLISECONDS = 20, /* how often it is looked whether a file has been written */
+};
 
 void app_say(struct app *app, const char *text)
 {
@@ -26,7 +30,7 @@ void app_say_unless_ok(struct app *app, enum status status, const struct error *
 void app_show_title(struct app *app)
 {
     char title[1100];
-    snprintf(title, sizeof title, "%s%s - balloon-sculpt", app->session.path ? app->session.path : app->path,
+    snprintf(title, sizeof title, "%s%s - balloon-sculpt", app->open ? app->session.path : app->options->path,
              app->session.unsaved ? " *" : "");
     window_title(app->window, title);
     window_redraw(app->window);
@@ -38,27 +42,22 @@ void app_remake_balloon(struct app *app)
     struct error err = {0};
     if (!app->preview)
         return;
-    window_timer(app->window, -1);
     enum status status = balloon_mesh(&app->balloon, &app->session.tree, &err);
     app->preview = !status;
     app_say_unless_ok(app, status, &err);
+    app_schedule(app);
 }
 
-enum status app_open_session(struct app *app, bool recover, struct error *err)
+void app_see_all(struct app *app)
 {
-    struct error reason = {0};
-    enum status status = session_open(&app->session, app->path, app->depth, recover, &reason);
-    if (status) {
-        *err = reason;
-        return status;
+    const struct octree_info info = octree_measure(&app->session.tree);
+    const double side = 1 << app->session.tree.depth;
+    double low[3], high[3];
+    for (int i = 0; i < 3; i++) {
+        low[i] = info.low[i] / side;
+        high[i] = (info.high[i] + 1) / side;
     }
-    app->open = true;
-    app->question = ASK_NOTHING;
-    status = render_solid_new(app->render, (const double[3]){0, 0, 0}, 1.0 / (1 << app->session.tree.depth),
-                              &app->solid, err);
-    app_say(app, recover ? "The work that was not saved is back." : app->session.warning);
-    app_show_title(app);
-    return status;
+    orbit_frame(&app->orbit, &app->view, low, high);
 }
 
 void app_aim(struct app *app)
@@ -105,11 +104,38 @@ static void begin_drag(struct app *app, enum window_button button, int modifiers
     }
 }
 
+/* Undo that reaches back less far is told of. */
+static void tell_forgotten(struct app *app)
+{
+    const struct session *session = &app->session;
+    const size_t megabytes = app->options->undo_memory >> 20;
+    char text[200];
+    if (session->forgotten == app->forgotten)
+        return;
+    app->forgotten = session->forgotten;
+    if (history_can_undo(&session->history))
+        snprintf(
+            text, sizeof text,
+            "The undo memory of %zu MB is full: the oldest steps were let go (--undo-memory MB gives more).",
+            megabytes);
+    else
+        snprintf(
+            text, sizeof text,
+            "This step is larger than the undo memory of %zu MB: nothing can be undone (--undo-memory MB "
+            "gives more).",
+            megabytes);
+    app_say(app, text);
+}
+
 static void end_drag(struct app *app)
 {
     struct error err = {0};
-    if (app->drag == DRAG_TOOL)
+    if (app->drag == DRAG_TOOL) {
         app_say_unless_ok(app, session_release(&app->session, &err), &err);
+        if (app->session.unsaved && !app->session.saving)
+            app->written = NULL;
+        tell_forgotten(app);
+    }
     app->drag = DRAG_NOTHING;
     app_aim(app);
     app_show_title(app);
@@ -152,52 +178,51 @@ static void wheel(void *self, int steps, int x, int y, int modifiers)
     window_redraw(app->window);
 }
 
-bool app_save(struct app *app, const char *path)
+/* The process ends a moment later, or not at all. */
+void app_quit(struct app *app)
 {
-    struct error err = {0};
-    struct bytes png = {0};
-    app_preview(app, &png, &err); /* a sculpture without a preview is whole */
-    enum status status = path ? session_save_as(&app->session, path, &png, &err)
-                              : session_save(&app->session, &png, &err);
-    bytes_clear(&png);
-    app_say(app, status ? err.text : "Saved.");
-    app_show_title(app);
-    return !status;
+    window_close(app->window);
 }
 
 static bool wants_to_close(void *self)
 {
     struct app *app = self;
-    if (!app->open || !app->session.unsaved)
+    if (!app->open || (!app->session.unsaved && !app->session.saving))
         return true;
-    app->question = ASK_QUIT;
-    window_redraw(app->window);
+    app_leave(app, NEXT_QUIT);
     return false;
 }
 
-void app_quit(struct app *app)
+void app_schedule(struct app *app)
 {
-    if (wants_to_close(app))
-        window_close(app->window);
+    if (app->preview && app->balloon.inflated)
+        window_timer(app->window, STEP_MILLISECONDS);
+    else if (app->waiting.count > 0 && !app->preview)
+        window_timer(app->window, 0);
+    else
+        window_timer(app->window, app->open && app->session.saving ? LOOK_MILLISECONDS : -1);
 }
 
-static void step_balloon(void *self)
+static void on_time(void *self)
 {
     struct app *app = self;
     struct error err = {0};
-    if (!app->preview || !app->balloon.inflated)
-        return;
-    enum status status = balloon_step(&app->balloon, &err);
-    app_say_unless_ok(app, status, &err);
-    if (!status)
-        window_timer(app->window, STEP_MILLISECONDS);
-    window_redraw(app->window);
+    app_follow_write(app);
+    if (app->preview && app->balloon.inflated) {
+        enum status status = balloon_step(&app->balloon, &err);
+        app_say_unless_ok(app, status, &err);
+        app->balloon.inflated = !status;
+        window_redraw(app->window);
+    }
+    if (app->waiting.count > 0 && !app->preview)
+        window_redraw(app->window);
+    app_schedule(app);
 }
 
 static void resized(void *self, int width, int height)
 {
     struct app *app = self;
-    app->view.width = app->view.stereo ? width & ~1 : width;
+    app->view.width = width;
     app->view.height = height;
     orbit_camera(&app->orbit, &app->view.camera);
     window_redraw(app->window);
@@ -208,7 +233,7 @@ static void drawn(void *self)
     app_draw(self);
 }
 
-static enum status open_window(struct app *app, bool recover, struct error *err)
+static enum status open_window(struct app *app, struct error *err)
 {
     static const struct window_events events = {.draw = drawn,
                                                 .resize = resized,
@@ -217,12 +242,13 @@ static enum status open_window(struct app *app, bool recover, struct error *err)
                                                 .wheel = wheel,
                                                 .motion = moved,
                                                 .leave = left_window,
-                                                .timer = step_balloon,
+                                                .timer = on_time,
                                                 .close = wants_to_close};
+    const char *path = app->options->path;
     bool left = false;
     char title[1100];
-    snprintf(title, sizeof title, "%s - balloon-sculpt", app->path);
-    enum status status = journal_is_left(app->path, &left, err);
+    snprintf(title, sizeof title, "%s - balloon-sculpt", path);
+    enum status status = journal_is_left(path, &left, err);
     struct error reason = {0};
     if (!status && window_open(title, WINDOW_WIDTH, WINDOW_HEIGHT, &events, app, &app->window, &reason))
         status = error_set(err, reason.status,
@@ -232,17 +258,20 @@ static enum status open_window(struct app *app, bool recover, struct error *err)
         status = render_open_window(app->window, &app->render, err);
     if (status)
         return status;
-    if (left && !recover)
+    snprintf(app->opening, sizeof app->opening, "%s", path);
+    if (left && !app->options->recover)
         app->question = ASK_RECOVER;
     else
-        status = app_open_session(app, recover && left, err);
+        status = app_open_session(app, path, left, err);
     return status;
 }
 
-enum status sculpt_window(const char *path, unsigned depth, bool recover, struct error *err)
+enum status sculpt_window(const struct sculpt_window_options *options, struct error *err)
 {
-    struct app app = {.path = path, .depth = depth, .orbit = orbit_start(), .cell_edges = true};
-    enum status status = open_window(&app, recover, err);
+    struct app app = {.options = options, .orbit = orbit_start(), .cell_edges = true};
+    app.view.width = WINDOW_WIDTH;
+    app.view.height = WINDOW_HEIGHT;
+    enum status status = open_window(&app, err);
     if (!status)
         window_run(app.window);
     if (!status && app.failed.status) {
@@ -251,11 +280,13 @@ enum status sculpt_window(const char *path, unsigned depth, bool recover, struct
     }
     if (app.open)
         session_clear(&app.session);
+    octree_clear(&app.model);
     balloon_clear(&app.balloon);
     render_solid_free(app.solid);
     render_close(app.render);
     window_free(app.window);
     free(app.found.items);
     free(app.faces.items);
+    free(app.waiting.items);
     return status;
 }

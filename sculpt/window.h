@@ -5,10 +5,17 @@
 #include "common/status.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 
-/* Opens a window on the sculpture `path` (a new cube of this depth where there is no such file) and returns when it has
- * been closed. Work that a killed program left is taken up with `recover`, and offered without. Errors: those of
- * session_open(), and STATUS_RESOURCE without a display. */
-enum status sculpt_window(const char *path, unsigned depth, bool recover, struct error *err);
+struct sculpt_window_options {
+    const char *path;
+    unsigned depth;     /* of a new cube, where there is no such file */
+    bool recover;       /* take up the work that a killed program left; else it is offered */
+    size_t undo_memory; /* bytes of steps that can be undone */
+};
+
+/* Opens a window on the sculpture and returns when it has been closed. Errors: those of session_open(), and
+ * STATUS_RESOURCE without a display. */
+enum status sculpt_window(const struct sculpt_window_options *options, struct error *err);
 
 #endif

@@ -1,4 +1,6 @@
-/* Inside of the sculpting window: what its files share. window.c answers the hand, window_draw.c shows. */
+/* Inside of the sculpting window: what its files share. window.c and
+ * window_keys.c answer the hand, window_files.c opens and saves, window_draw.c and
+ * window_text.c show. */
 #ifndef SCULPT_WINDOW_APP_H
 #define SCULPT_WINDOW_APP_H
 
@@ -8,10 +10,17 @@
 #include "render/window.h"
 #include "sculpt/bricks.h"
 #include "sculpt/session.h"
+#include "sculpt/window.h"
 #include "sculpt/window_balloon.h"
 
 /* What the window asks, and what the next keys answer. */
-enum question { ASK_NOTHING, ASK_RECOVER, ASK_QUIT, ASK_NAME };
+enum question { ASK_NOTHING, ASK_RECOVER, ASK_UNSAVED, ASK_HOLLOW, ASK_NAME };
+
+/* What a name is typed for. */
+enum naming { NAME_SAVE, NAME_OPEN, NAME_EXPORT };
+
+/* What follows when unsaved work is saved, or given up. */
+enum next { NEXT_NOTHING, NEXT_QUIT, NEXT_OPEN };
 
 /* What a button that is held does. */
 enum drag { DRAG_NOTHING, DRAG_TOOL, DRAG_TURN, DRAG_PAN };
@@ -19,8 +28,7 @@ enum drag { DRAG_NOTHING, DRAG_TOOL, DRAG_TURN, DRAG_PAN };
 enum { STEP_MILLISECONDS = 25 }; /* the simulator's default step, at the speed of life */
 
 struct app {
-    const char *path;
-    unsigned depth;
+    const struct sculpt_window_options *options;
     bool open; /* the session is: not while ASK_RECOVER waits */
     struct session session;
 
@@ -34,7 +42,11 @@ struct app {
     } faces;
     struct orbit orbit;
     struct render_view view;
-    bool cell_edges, help;
+    struct {
+        struct window_brick *items;
+        size_t count, capacity;
+    } waiting; /* bricks to be made; window_bricks.c */
+    bool cell_edges, smooth_light, help;
 
     enum drag drag;
     int x, y; /* of the pointer */
@@ -43,19 +55,49 @@ struct app {
     bool preview; /* the balloon is shown in the sculpture's place */
 
     enum question question;
-    char answer[1024];   /* typed so far */
-    char message[1100];  /* the last thing there was to say */
-    struct error failed; /* what ended the program */
+    enum naming naming;
+    enum next next;       /* after ASK_UNSAVED */
+    bool next_when_saved; /* it waits for the end of a save */
+    bool sure;            /* a file of the name that was typed may be replaced */
+    char answer[1024];    /* typed so far */
+    char opening[1024];   /* the sculpture that ASK_RECOVER, or the model that ASK_HOLLOW, is about */
+    struct octree model;  /* imported, while ASK_HOLLOW waits */
+    uint64_t hollow;      /* its empty cells within */
+    const char *written;  /* of the last file: "saving...", "saved" */
+    size_t forgotten;     /* session.forgotten, when that was told last */
+    char message[1100];   /* the last thing there was to say */
+    struct error failed;  /* what ended the program */
 };
 
-/* window.c: begins to sculpt, with the work that a killed program left or without. */
-enum status app_open_session(struct app *app, bool recover, struct error *err);
+/* window_files.c: opens the sculpture `path` in the place of the one that is there, with the work that a killed program
+ * left or without. On failure everything is as it was. */
+enum status app_open_session(struct app *app, const char *path, bool recover, struct error *err);
 
-/* Saves, under another name unless that is NULL; says what came of it. */
+/* Begins to save, under another name unless that is NULL. False when it could not be begun; it has been said why. */
 bool app_save(struct app *app, const char *path);
 
-/* Closes the window, or asks first. */
+/* Looks whether what is being written has been: then it is said, and what waited for it is done. */
+void app_follow_write(struct app *app);
+
+/* Does something for which unsaved work would be lost, or asks first. */
+void app_leave(struct app *app, enum next next);
+void app_do_next(struct app *app);
+
+/* Asks for a name; does what it was typed for. */
+void app_ask_name(struct app *app, enum naming naming);
+void app_take_name(struct app *app);
+
+/* Goes on with the model that was imported. */
+void app_take_model(struct app *app, bool fill);
+
+/* window.c: closes the window, when nothing is being written any more. */
 void app_quit(struct app *app);
+
+/* The timer comes when there is something to be done by then. */
+void app_schedule(struct app *app);
+
+/* The whole sculpture in the middle of the picture. */
+void app_see_all(struct app *app);
 
 /* A line for the user, "" for none; or the error's, if there is one. */
 void app_say(struct app *app, const char *text);
@@ -74,8 +116,16 @@ void app_key(void *self, int key, int modifiers);
 /* window_draw.c: shows everything, into the window. */
 void app_draw(struct app *app);
 
-/* Brings the faces up to date with the session's changes. */
-enum status app_update_solid(struct app *app, struct error *err);
+/* window_text.c: what there is to be read; it is good until the next call. */
+enum { WINDOW_TEXTS_MAX = 4 };
+size_t app_texts(const struct app *app, struct render_text texts[WINDOW_TEXTS_MAX]);
+
+/* window_bricks.c: brings the faces up to date with the session's changes, for this long; what is left waits in
+ * app->waiting. */
+enum status app_update_solid(struct app *app, double most_seconds, struct error *err);
+
+/* All faces are made anew. */
+void app_see_anew(struct app *app);
 
 /* A picture of the sculpture alone, 256 x 192, as the bytes of a PNG; *png is empty after a failure. */
 enum status app_preview(struct app *app, struct bytes *png, struct error *err);

@@ -2,50 +2,70 @@
 #include "sculpt/window_app.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static void answer_recover(struct app *app, int key)
+/* At the start there is nothing to stay with. */
+static void answer_recover(struct app *app, int key, int modifiers)
 {
-    if (key == WINDOW_ESCAPE)
-        window_close(app->window);
+    (void)modifiers;
+    struct error err = {0};
+    const bool first = !app->open;
+    if (key == WINDOW_ESCAPE) {
+        app->question = ASK_NOTHING;
+        if (first)
+            window_close(app->window);
+    }
     if (key != 'r' && key != 'n')
         return;
-    if (app_open_session(app, key == 'r', &app->failed))
+    enum status status = app_open_session(app, app->opening, key == 'r', &err);
+    if (status && first) {
+        app->failed = err;
         window_close(app->window);
-}
-
-static void answer_quit(struct app *app, int key)
-{
-    if (key == WINDOW_ESCAPE)
+    } else if (status) {
         app->question = ASK_NOTHING;
-    if (key == 'd' || (key == 's' && app_save(app, NULL)))
-        window_close(app->window);
+        app_say(app, err.text);
+    }
 }
 
-static void answer_name(struct app *app, int key)
+static void answer_unsaved(struct app *app, int key, int modifiers)
+{
+    (void)modifiers;
+    if (key == WINDOW_ESCAPE || key == 's')
+        app->question = ASK_NOTHING;
+    if (key == 's')
+        app->next_when_saved = app_save(app, NULL);
+    else if (key == 'd')
+        app_do_next(app);
+}
+
+static void answer_hollow(struct app *app, int key, int modifiers)
+{
+    (void)modifiers;
+    if (key == 'f' || key == 'n')
+        app_take_model(app, key == 'f');
+    if (key != WINDOW_ESCAPE)
+        return;
+    app->question = ASK_NOTHING;
+    octree_clear(&app->model);
+}
+
+static void answer_name(struct app *app, int key, int modifiers)
 {
     const size_t length = strlen(app->answer);
-    if (key == WINDOW_ESCAPE)
+    if (key == WINDOW_ESCAPE) {
         app->question = ASK_NOTHING;
-    else if (key == WINDOW_BACKSPACE && length > 0)
+    } else if (key == WINDOW_ENTER && length > 0) {
+        app_take_name(app);
+    } else if (key == WINDOW_BACKSPACE && length > 0) {
         app->answer[length - 1] = '\0';
-    else if (key == WINDOW_ENTER && length > 0 && app_save(app, app->answer))
-        app->question = ASK_NOTHING;
-    else if (key >= ' ' && key < 127 && length + 1 < sizeof app->answer)
-        app->answer[length] = (char)key, app->answer[length + 1] = '\0';
-}
-
-static void see_all(struct app *app)
-{
-    const struct octree_info info = octree_measure(&app->session.tree);
-    const double side = 1 << app->session.tree.depth;
-    double low[3], high[3];
-    for (int i = 0; i < 3; i++) {
-        low[i] = info.low[i] / side;
-        high[i] = (info.high[i] + 1) / side;
+        app->sure = false;
+    } else if (!(modifiers & WINDOW_CTRL) && key >= ' ' && key < 127 && length + 1 < sizeof app->answer) {
+        app->answer[length] = (char)key;
+        app->answer[length + 1] = '\0';
+        app->sure = false;
     }
-    orbit_frame(&app->orbit, &app->view, low, high);
 }
 
 static void toggle_balloon(struct app *app)
@@ -53,8 +73,7 @@ static void toggle_balloon(struct app *app)
     app->preview = !app->preview;
     if (app->preview)
         app_remake_balloon(app);
-    else
-        window_timer(app->window, -1);
+    app_schedule(app);
 }
 
 static void toggle_inflation(struct app *app)
@@ -72,8 +91,7 @@ static void toggle_inflation(struct app *app)
     enum status status = balloon_inflate(&app->balloon, &err);
     app->preview = !status;
     app_say_unless_ok(app, status, &err);
-    if (!status)
-        window_timer(app->window, STEP_MILLISECONDS);
+    app_schedule(app);
 }
 
 static void look(struct app *app, enum orbit_side side, enum orbit_side other, int modifiers)
@@ -85,6 +103,8 @@ static void control_key(struct app *app, int key, int modifiers)
 {
     struct error err = {0};
     bool done = true;
+    if (app->drag != DRAG_NOTHING)
+        return; /* a step is open */
     switch (key) {
     case 'z':
         done = modifiers & WINDOW_SHIFT ? session_redo(&app->session, &err)
@@ -94,15 +114,19 @@ static void control_key(struct app *app, int key, int modifiers)
         done = session_redo(&app->session, &err);
         break;
     case 's':
-        if (modifiers & WINDOW_SHIFT) {
-            snprintf(app->answer, sizeof app->answer, "%s", app->session.path);
-            app->question = ASK_NAME;
-        } else {
+        if (modifiers & WINDOW_SHIFT)
+            app_ask_name(app, NAME_SAVE);
+        else
             app_save(app, NULL);
-        }
+        return;
+    case 'o':
+        app_leave(app, NEXT_OPEN);
+        return;
+    case 'e':
+        app_ask_name(app, NAME_EXPORT);
         return;
     case 'q':
-        app_quit(app);
+        app_leave(app, NEXT_QUIT);
         return;
     default:
         return;
@@ -156,10 +180,22 @@ static bool brush_key(struct session *session, int key)
     }
 }
 
-static void view_key(struct app *app, int key, int modifiers)
+/* Each eye has half of the width, and sees from as much further away as that is narrower than high. */
+static void change_stereo(struct app *app)
 {
     static const enum render_stereo next[] = {
         [RENDER_MONO] = RENDER_PARALLEL, [RENDER_PARALLEL] = RENDER_CROSSED, [RENDER_CROSSED] = RENDER_MONO};
+    const double narrower = fmax(1, 2.0 * app->view.height / app->view.width);
+    const enum render_stereo before = app->view.stereo;
+    app->view.stereo = next[before];
+    if (before == RENDER_MONO)
+        app->orbit.distance *= narrower;
+    else if (app->view.stereo == RENDER_MONO)
+        app->orbit.distance /= narrower;
+}
+
+static void view_key(struct app *app, int key, int modifiers)
+{
     switch (key) {
     case '1':
         look(app, ORBIT_FRONT, ORBIT_BACK, modifiers);
@@ -171,13 +207,17 @@ static void view_key(struct app *app, int key, int modifiers)
         look(app, ORBIT_TOP, ORBIT_BOTTOM, modifiers);
         break;
     case WINDOW_HOME:
-        see_all(app);
+        app_see_all(app);
         break;
     case 'e':
         app->cell_edges = !app->cell_edges;
         break;
+    case 'l':
+        app->smooth_light = !app->smooth_light;
+        app_see_anew(app);
+        break;
     case 'v':
-        app->view.stereo = next[app->view.stereo];
+        change_stereo(app);
         break;
     case 'p':
         toggle_balloon(app);
@@ -198,16 +238,21 @@ static void view_key(struct app *app, int key, int modifiers)
     }
 }
 
+static void answer(struct app *app, int key, int modifiers)
+{
+    static void (*const answers[])(struct app *, int, int) = {[ASK_RECOVER] = answer_recover,
+                                                              [ASK_UNSAVED] = answer_unsaved,
+                                                              [ASK_HOLLOW] = answer_hollow,
+                                                              [ASK_NAME] = answer_name};
+    answers[app->question](app, key, modifiers);
+}
+
 void app_key(void *self, int key, int modifiers)
 {
     struct app *app = self;
-    if (app->question == ASK_RECOVER)
-        answer_recover(app, key);
-    else if (app->question == ASK_QUIT)
-        answer_quit(app, key);
-    else if (app->question == ASK_NAME)
-        answer_name(app, key);
-    else if (modifiers & WINDOW_CTRL && isalpha(key))
+    if (app->question)
+        answer(app, key, modifiers);
+    else if (modifiers & WINDOW_CTRL && key < 128 && isalpha(key))
         control_key(app, tolower(key), modifiers);
     else if (!tool_key(&app->session, key) && !brush_key(&app->session, key))
         view_key(app, key, modifiers);

@@ -1,0 +1,132 @@
+/* What the sculpting window says. */
+#include "sculpt/window_app.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { TEXT_SIZE = 2048, LETTER_WIDTH = 6, MARGIN = 8, BOX_MARGIN = 4 };
+
+static const char help[] = "left       tool              middle, alt+left  turn\n"
+                           "right      pan (shift+middle)       wheel      zoom\n"
+                           "ctrl+wheel + -  brush size   shift+wheel [ ]   brush depth\n"
+                           "\n"
+                           "s  sphere    b  box        c  cylinder    d  draw a stroke\n"
+                           "k  cut by a dragged line   n  sandpaper   h  heat\n"
+                           "tab  chip or fill          g  snap to the grid of cells\n"
+                           "x y z  mirror              m  next material to fill with\n"
+                           "\n"
+                           "ctrl+z undo       ctrl+y, ctrl+shift+z  redo\n"
+                           "ctrl+s save       ctrl+shift+s  save as\n"
+                           "ctrl+o open or import           ctrl+e  export\n"
+                           "ctrl+q quit\n"
+                           "\n"
+                           "home  see all     1 3 7  front, right, top (ctrl: the other side)\n"
+                           "e  cell edges     l  light by side or by shape     v  stereo\n"
+                           "p  balloon        i  inflate it              F1 ?  this help";
+
+static void describe_tool(const struct app *app, char *text, size_t size)
+{
+    const struct session *s = &app->session;
+    char mirror[16] = "";
+    for (int axis = 0; axis < 3; axis++)
+        if (s->mirror >> axis & 1)
+            strncat(mirror, (const char *[]){"x", "y", "z"}[axis], 2);
+    snprintf(text, size, "%s%s%s  brush %.3g cells  depth %+.1f%s%s%s  F1 help%s%s",
+             s->fill ? "fill " : "chip ", session_tool_names[s->tool], app->preview ? " (balloon)" : "",
+             s->radius * (1 << s->tree.depth), s->depth, s->snap ? "  grid" : "", *mirror ? "  mirror " : "",
+             mirror, app->written ? "  " : "", app->written ? app->written : "");
+}
+
+static void describe_question(const struct app *app, char *text, size_t size)
+{
+    static const char *const names[] = {
+        [NAME_SAVE] = "Save as: %s_\nenter  save     esc  do not",
+        [NAME_OPEN] = "Open or import (.oct .vox .stl .ply .obj): %s_\nenter  open     esc  do not",
+        [NAME_EXPORT] = "Export (.vox .ply .chips): %s_\nenter  export     esc  do not",
+    };
+    text[0] = '\0';
+    switch (app->question) {
+    case ASK_RECOVER:
+        snprintf(text, size,
+                 "%s: work that was not saved was found.\nr  take it up     n  forget it     esc  %s",
+                 app->opening, app->open ? "do not open it" : "quit");
+        break;
+    case ASK_UNSAVED:
+        snprintf(text, size,
+                 "There is work that is not saved.\ns  save and %s     d  discard it     esc  stay",
+                 app->next == NEXT_QUIT ? "quit" : "open another");
+        break;
+    case ASK_HOLLOW:
+        snprintf(text, size,
+                 "%s is hollow: %llu cells within are empty.\nf  fill them     n  leave them     esc  "
+                 "do not import it",
+                 app->opening, (unsigned long long)app->hollow);
+        break;
+    case ASK_NAME:
+        snprintf(text, size, names[app->naming], app->answer);
+        break;
+    default:
+        break;
+    }
+}
+
+/* Breaks lines that are longer than this many letters, at a space where there is one. */
+static void wrap(char *text, int columns)
+{
+    char *line = text, *space = NULL;
+    for (char *at = text; *at; at++) {
+        if (*at == '\n') {
+            line = at + 1;
+            space = NULL;
+        } else if (*at == ' ') {
+            space = at;
+        }
+        if (at - line >= columns && space) {
+            *space = '\n';
+            line = space + 1;
+            space = NULL;
+        }
+    }
+}
+
+/* A text that fits into the width of an eye's picture, at this height; from the lower border if that is negative. */
+static void add_text(const struct app *app, struct render_text *texts, size_t *count, char storage[TEXT_SIZE],
+                     int x, int y, const float colour[3])
+{
+    const int width = app->view.stereo ? app->view.width / 2 : app->view.width;
+    struct render_text *text = &texts[*count];
+    int w, h;
+    *text = (struct render_text){storage, x, y, 2, {colour[0], colour[1], colour[2]}, true};
+    render_text_size(text, &w, &h);
+    if (x + w > width) {
+        text->scale = 1;
+        wrap(storage, (width - x - MARGIN - 2 * BOX_MARGIN) / LETTER_WIDTH);
+        render_text_size(text, &w, &h);
+    }
+    if (y < 0)
+        text->y = app->view.height + y - h;
+    (*count)++;
+}
+
+size_t app_texts(const struct app *app, struct render_text texts[WINDOW_TEXTS_MAX])
+{
+    static const float white[3] = {1, 1, 1}, warm[3] = {1, 0.8f, 0.3f};
+    static char storage[WINDOW_TEXTS_MAX][TEXT_SIZE];
+    size_t count = 0;
+    if (app->open) {
+        describe_tool(app, storage[count], TEXT_SIZE);
+        add_text(app, texts, &count, storage[count], MARGIN, -MARGIN, white);
+    }
+    if (app->message[0]) {
+        snprintf(storage[count], TEXT_SIZE, "%s", app->message);
+        add_text(app, texts, &count, storage[count], MARGIN, MARGIN, warm);
+    }
+    if (app->help) {
+        memcpy(storage[count], help, sizeof help);
+        add_text(app, texts, &count, storage[count], 3 * MARGIN, 6 * MARGIN, white);
+    }
+    describe_question(app, storage[count], TEXT_SIZE);
+    if (storage[count][0])
+        add_text(app, texts, &count, storage[count], 3 * MARGIN, app->view.height / 2 - 20, white);
+    return count;
+}
