@@ -47,7 +47,7 @@ enum status balloon_inflate(struct balloon *balloon, struct error *err)
         status = scene_check(&balloon->scene, err);
     if (!status) {
         find_place(balloon);
-        status = sim_open(&balloon->sim, &balloon->scene, &balloon->mesh, err);
+        status = sim_open(&balloon->sim, &balloon->scene, &balloon->mesh, 0, err);
     }
     if (!status)
         status = skins_init(&balloon->skins, &balloon->sim, err);

@@ -24,7 +24,7 @@ double sim_stable_step(const struct sim *sim, const struct sim_balloon *balloon)
     double k = 0;
     for (uint32_t e = balloon->edge_begin; e < balloon->edge_end; e++)
         k = fmax(k, sim->current_spring_const[e]);
-    const double mu = 2.0 * largest_degree(sim, balloon), d = balloon->damping,
+    const double mu = 2.0 * largest_degree(sim, balloon), d = balloon->now->damping,
                  m = balloon->scene->point_mass;
     if (!(mu > 0) || (k == 0 && d == 0))
         return 0;

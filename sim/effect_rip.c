@@ -15,7 +15,7 @@ static double mean_stretch(const struct sim *sim, const struct sim_balloon *ball
     double length = 0, rest = 0;
     for (uint32_t e = balloon->edge_begin; e < balloon->edge_end; e++)
         if (sim->edge_active[e]) {
-            length += sim->length[e];
+            length += sim_edge_length(sim, e);
             rest += sim->rest_length[e];
         }
     return rest > 0 ? length / rest : 0;
@@ -68,9 +68,9 @@ static void cut(struct sim *sim, const struct sim_balloon *balloon)
 static void apply(struct sim *sim, struct sim_balloon *balloon)
 {
     const struct scene_rip *rip = &balloon->scene->rip;
-    if (balloon->ripped || sim->time < rip->at || mean_stretch(sim, balloon) < rip->stretch)
+    if (balloon->now->ripped || sim->time < rip->at || mean_stretch(sim, balloon) < rip->stretch)
         return;
-    balloon->ripped = true;
+    balloon->now->ripped = 1;
     cut(sim, balloon);
 }
 

@@ -23,7 +23,7 @@ static void apply(struct sim *sim, struct sim_balloon *balloon)
         double factor = scene_profile_at(&balloon->scene->spring_by_height.profile,
                                          (middle - low) / (high - low));
         sim->init_spring_const[e] *= factor;
-        sim->current_spring_const[e] = sim->init_spring_const[e] * balloon->spring_factor;
+        sim->current_spring_const[e] = sim->init_spring_const[e] * balloon->now->spring_factor;
     }
 }
 

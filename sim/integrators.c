@@ -1,15 +1,15 @@
 #include "sim/sim.h"
 
+#include <math.h>
 #include <string.h>
 
 /* v += a dt, then x += v dt: velocity first. The update with which the paper's claims hold. */
-static void symplectic_euler(struct sim *sim)
+static void part_velocity_first(struct sim *sim, const struct sim_part *part, void *context)
 {
-    sim_forces(sim);
-    const double dt = sim->step;
-    for (uint32_t p = 0; p < sim->point_count; p++) {
+    const double dt = *(double *)context;
+    for (uint32_t p = part->point_begin; p < part->point_end; p++) {
         const double kick = dt / sim->mass[p];
-        for (int i = 0; i < 3; i++) {
+        for (int i = 0; i < 4; i++) {
             sim->velocity[p][i] += sim->force[p][i] * kick;
             sim->position[p][i] += sim->velocity[p][i] * dt;
         }
@@ -17,22 +17,59 @@ static void symplectic_euler(struct sim *sim)
 }
 
 /* x += v dt, then v += a dt with the acceleration at the old place: the textbook's Euler. */
-static void explicit_euler(struct sim *sim)
+static void part_position_first(struct sim *sim, const struct sim_part *part, void *context)
 {
-    sim_forces(sim);
-    const double dt = sim->step;
-    for (uint32_t p = 0; p < sim->point_count; p++) {
+    const double dt = *(double *)context;
+    for (uint32_t p = part->point_begin; p < part->point_end; p++) {
         const double kick = dt / sim->mass[p];
-        for (int i = 0; i < 3; i++) {
+        for (int i = 0; i < 4; i++) {
             sim->position[p][i] += sim->velocity[p][i] * dt;
             sim->velocity[p][i] += sim->force[p][i] * kick;
         }
     }
 }
 
-static const struct integrator symplectic = {"symplectic-euler", 1, symplectic_euler,
-                                             "paper 3.1, velocity first"};
-static const struct integrator textbook = {"explicit-euler", 1, explicit_euler, "paper 3.1, position first"};
+static void advance_scalars(struct sim *sim, double dt)
+{
+    for (uint32_t i = 0; i < sim->scalar_count; i++)
+        sim->scalar[i] += sim->scalar_rate[i] * dt;
+}
+
+static enum status symplectic_euler(struct sim *sim, double dt, struct error *err)
+{
+    (void)err;
+    sim_forces(sim);
+    sim_each_part(sim, part_velocity_first, &dt);
+    advance_scalars(sim, dt);
+    return STATUS_OK;
+}
+
+static enum status explicit_euler(struct sim *sim, double dt, struct error *err)
+{
+    (void)err;
+    sim_forces(sim);
+    sim_each_part(sim, part_position_first, &dt);
+    advance_scalars(sim, dt);
+    return STATUS_OK;
+}
+
+static const struct integrator symplectic = {.name = "symplectic-euler",
+                                             .order = 1,
+                                             .flags = INTEGRATOR_SYMPLECTIC,
+                                             .evaluations = 1,
+                                             .oscillation_limit = 2,
+                                             .decay_limit = 2,
+                                             .advance = symplectic_euler,
+                                             .source = "paper 3.1, velocity first"};
+
+/* Any step is unstable without damping. */
+static const struct integrator textbook = {.name = "explicit-euler",
+                                           .order = 1,
+                                           .evaluations = 1,
+                                           .oscillation_limit = 0,
+                                           .decay_limit = 2,
+                                           .advance = explicit_euler,
+                                           .source = "paper 3.1, position first"};
 
 const struct integrator *const integrators[] = {&symplectic, &textbook, NULL};
 

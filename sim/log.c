@@ -37,7 +37,7 @@ void sim_log_row(struct sim_log *log, struct sim *sim)
                            1e-9 * (double)(now.tv_nsec - log->began.tv_nsec);
     fprintf(file_out_stream(log->out),
             "%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%u\t%u\t%.9g\t%u\t%.9g\t%.9g\t%.3f\n", sim->time,
-            m.mean_radius, m.volume, sim->balloons[0].pressure, m.kinetic_energy, m.elastic_energy,
+            m.mean_radius, m.volume, sim->settings[0].pressure, m.kinetic_energy, m.elastic_energy,
             m.max_stretch, m.edges_active, m.triangles_active, m.area, m.pieces, m.largest_piece_area,
             sim->step, seconds);
 }

@@ -2,6 +2,7 @@
 #include "common/array.h"
 #include "common/command.h"
 #include "common/file.h"
+#include "common/threads.h"
 #include "sim/film.h"
 #include "sim/sim.h"
 
@@ -15,6 +16,7 @@ struct options {
     const char **set; /* [set_count] KEY=VALUE, in order */
     size_t set_count;
     const char *frames, *movie, *sheet, *log, *mesh;
+    unsigned threads; /* 0: as many as the machine has */
     bool hash, check, explain, help_scene;
 };
 
@@ -24,6 +26,7 @@ enum {
     OPTION_SHEET,
     OPTION_LOG,
     OPTION_SET,
+    OPTION_THREADS,
     OPTION_HASH,
     OPTION_CHECK,
     OPTION_EXPLAIN,
@@ -38,6 +41,8 @@ static const struct argp_option option_table[] = {
     {"output", 'o', "FILE", 0, "Write the skin as it is at the end (.ply, .stl or .obj)", 1},
     {"hash", OPTION_HASH, 0, 0, "Print a 64-bit hash of the final state as the last line", 1},
     {"set", OPTION_SET, "KEY=VALUE", 0, "Change a key of the scene, by its path: balloons[0].pressure=12", 2},
+    {"threads", OPTION_THREADS, "N", 0,
+     "How many threads work on a step (default: the machine's); results are equal to the bit", 2},
     {"check", OPTION_CHECK, 0, 0, "Read the scene and its meshes, say what is there, and stop", 3},
     {"explain", OPTION_EXPLAIN, 0, 0, "Say which effects are on or off, and why, and stop", 3},
     {"help-scene", OPTION_HELP_SCENE, 0, 0, "Print every key that a scene can have, and stop", 3},
@@ -65,6 +70,9 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         if (!mesh_is_file_name(argument))
             argp_error(state, "-o %s: must end in .ply, .stl or .obj", argument);
         o->mesh = argument;
+        break;
+    case OPTION_THREADS:
+        o->threads = (unsigned)command_whole(state, "--threads", argument, 1, THREADS_MAX);
         break;
     case OPTION_HASH:
         o->hash = true;
@@ -122,7 +130,8 @@ static void note_repairs(const struct scene *scene, const struct mesh_report *re
     }
 }
 
-static enum status open_sim(struct sim *sim, const struct scene *scene, struct error *err)
+static enum status open_sim(struct sim *sim, const struct scene *scene, const struct options *options,
+                            struct error *err)
 {
     struct mesh *meshes = calloc(scene->balloon_count, sizeof *meshes);
     struct mesh_report *reports = calloc(scene->balloon_count, sizeof *reports);
@@ -130,7 +139,7 @@ static enum status open_sim(struct sim *sim, const struct scene *scene, struct e
                                            : error_no_memory(err, "the meshes");
     if (!status) {
         note_repairs(scene, reports);
-        status = sim_open(sim, scene, meshes, err);
+        status = sim_open(sim, scene, meshes, options->threads, err);
     }
     for (size_t i = 0; meshes && i < scene->balloon_count; i++)
         mesh_clear(&meshes[i]);
@@ -291,7 +300,7 @@ static enum status perform(const struct options *options, struct error *err)
     struct sim sim = {0};
     enum status status = load_scene(options, &scene, err);
     if (!status && !options->explain)
-        status = open_sim(&sim, &scene, err);
+        status = open_sim(&sim, &scene, options, err);
     if (!status && options->explain)
         print_effects(&scene);
     else if (!status && options->check)

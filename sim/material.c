@@ -20,7 +20,7 @@ void sim_material(const struct sim *sim, float *opacity, float *shininess)
         const struct scene_balloon *skin = balloon_of(sim, t)->scene;
         double length = 0, rest = 0;
         for (int k = 0; k < 3; k++) {
-            length += sim->length[sim->triangle_edge[t][k]];
+            length += sim_edge_length(sim, sim->triangle_edge[t][k]);
             rest += sim->rest_length[sim->triangle_edge[t][k]];
         }
         const double stretch = rest > 0 ? fmax(length / rest, 1) : 1;

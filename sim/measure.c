@@ -1,9 +1,6 @@
 /* What the log tells about a state. */
-#include "common/hash.h"
 #include "common/vec3.h"
 #include "sim/sim.h"
-
-#include <string.h>
 
 /* Pieces are a forest over the edges, in which each active triangle joins its three: two triangles hang together where
  * they share an edge. */
@@ -104,10 +101,10 @@ static void measure_edges(const struct sim *sim, struct sim_measures *m)
 {
     for (uint32_t e = 0; e < sim->edge_count; e++)
         if (sim->edge_active[e]) {
-            const double stretched = sim->length[e] - sim->rest_length[e];
+            const double length = sim_edge_length(sim, e), stretched = length - sim->rest_length[e];
             m->elastic_energy += sim->current_spring_const[e] * stretched * stretched / 2;
             if (sim->rest_length[e] > 0)
-                m->max_stretch = fmax(m->max_stretch, sim->length[e] / sim->rest_length[e]);
+                m->max_stretch = fmax(m->max_stretch, length / sim->rest_length[e]);
             m->edges_active++;
         }
 }
@@ -125,13 +122,4 @@ struct sim_measures sim_measure(struct sim *sim)
     for (uint32_t p = 0; p < sim->point_count; p++)
         m.kinetic_energy += sim->mass[p] * vec3_dot(sim->velocity[p], sim->velocity[p]) / 2;
     return m;
-}
-
-uint64_t sim_hash(const struct sim *sim)
-{
-    uint64_t hash = hash_bytes(HASH_START, &sim->time, sizeof sim->time);
-    hash = hash_bytes(hash, sim->position, sim->point_count * sizeof *sim->position);
-    hash = hash_bytes(hash, sim->velocity, sim->point_count * sizeof *sim->velocity);
-    hash = hash_bytes(hash, sim->edge_active, sim->edge_count);
-    return hash_bytes(hash, sim->triangle_active, sim->triangle_count);
 }

@@ -1,31 +1,54 @@
 /* "Once the triangles of the surface are created, they are loaded into the simulation application and are uniquely
  * sorted into data structures for points, edges, and triangles" (paper 3.5). */
 #include "common/array.h"
+#include "common/threads.h"
 #include "common/vec3.h"
-#include "sim/sim.h"
+#include "sim/kernels.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 void sim_clear(struct sim *sim)
 {
-    void *arrays[] = {
-        sim->normal,         sim->position,      sim->velocity,          sim->force,
-        sim->mass,           sim->edge_point,    sim->rest_length,       sim->length,
-        sim->edge_active,    sim->triangle_edge, sim->init_spring_const, sim->current_spring_const,
-        sim->triangle_point, sim->piece,         sim->triangle_active,   sim->balloons,
-        sim->piece_area};
+    if (sim->integrator && sim->integrator->close)
+        sim->integrator->close(sim);
+    parts_close(sim);
+    void *arrays[] = {sim->normal,
+                      sim->position,
+                      sim->velocity,
+                      sim->force,
+                      sim->mass,
+                      sim->edge_point,
+                      sim->rest_length,
+                      sim->broken_length,
+                      sim->edge_active,
+                      sim->triangle_edge,
+                      sim->init_spring_const,
+                      sim->current_spring_const,
+                      sim->piece,
+                      sim->piece_area,
+                      sim->triangle_point,
+                      sim->triangle_active,
+                      sim->balloons,
+                      sim->settings,
+                      sim->scalar,
+                      sim->scalar_rate};
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
         free(arrays[i]);
+    for (int i = 0; i < SIM_VECTORS_MAX; i++)
+        free(sim->scratch[i]);
     for (int phase = 0; phase < EFFECT_PHASES; phase++)
         free(sim->hooks[phase]);
     *sim = (struct sim){0};
 }
 
-/* calloc that adds to sim->bytes, and remembers in *failed that there was not enough. */
+/* Zeroed memory on a line of the cache, which adds to sim->bytes; *failed remembers that there was not enough. */
 static void *table(struct sim *sim, size_t count, size_t size, bool *failed)
 {
-    void *items = calloc(count ? count : 1, size);
+    const size_t line = 64, bytes = (count * size + line) / line * line;
+    void *items = aligned_alloc(line, bytes);
+    if (items)
+        memset(items, 0, bytes);
     sim->bytes += count * size;
     *failed |= !items;
     return items;
@@ -42,7 +65,7 @@ static enum status allocate(struct sim *sim, struct error *err)
     sim->mass = table(sim, points, sizeof *sim->mass, &failed);
     sim->edge_point = table(sim, edges, sizeof *sim->edge_point, &failed);
     sim->rest_length = table(sim, edges, sizeof *sim->rest_length, &failed);
-    sim->length = table(sim, edges, sizeof *sim->length, &failed);
+    sim->broken_length = table(sim, edges, sizeof *sim->broken_length, &failed);
     sim->init_spring_const = table(sim, edges, sizeof *sim->init_spring_const, &failed);
     sim->current_spring_const = table(sim, edges, sizeof *sim->current_spring_const, &failed);
     sim->edge_active = table(sim, edges, sizeof *sim->edge_active, &failed);
@@ -52,6 +75,13 @@ static enum status allocate(struct sim *sim, struct error *err)
     sim->triangle_edge = table(sim, triangles, sizeof *sim->triangle_edge, &failed);
     sim->triangle_active = table(sim, triangles, sizeof *sim->triangle_active, &failed);
     sim->balloons = table(sim, sim->balloon_count, sizeof *sim->balloons, &failed);
+    sim->settings = table(sim, sim->balloon_count, sizeof *sim->settings, &failed);
+    for (int i = 0; i < sim->integrator->vectors; i++)
+        sim->scratch[i] = table(sim, points, sizeof *sim->scratch[i], &failed);
+    sim->rows.position = sim->position;
+    sim->rows.velocity = sim->velocity;
+    sim->rows.force = sim->force;
+    sim->rows.normal = sim->normal;
     return failed ? error_no_memory(err, "the points, edges and triangles") : STATUS_OK;
 }
 
@@ -77,42 +107,60 @@ static void place_points(struct sim *sim, struct sim_balloon *b, const struct me
         sim->mass[p] = b->scene->point_mass;
 }
 
-static void make_springs(struct sim *sim, struct sim_balloon *b, const struct mesh *mesh)
+/* Where edges and triangles of a mesh go in the tables. */
+struct places {
+    uint32_t *edge, *triangle, *count;
+};
+
+static void make_springs(struct sim *sim, struct sim_balloon *b, const struct mesh *mesh,
+                         const struct places *places)
 {
-    for (uint32_t i = 0, e = b->edge_begin; e < b->edge_end; i++, e++) {
+    for (uint32_t i = 0; i < mesh->edge_count; i++) {
+        const uint32_t e = b->edge_begin + places->edge[i];
         for (int k = 0; k < 2; k++)
             sim->edge_point[e][k] = b->point_begin + mesh->edge[i][k];
-        sim->length[e] = vec3_distance(sim->position[sim->edge_point[e][0]],
-                                       sim->position[sim->edge_point[e][1]]);
-        sim->rest_length[e] = sim->length[e];
+        sim->edge_active[e] = 1;
+        sim->rest_length[e] = sim_edge_length(sim, e);
         sim->init_spring_const[e] = b->scene->spring;
         sim->current_spring_const[e] = b->scene->spring * b->scene->spring_factor;
-        sim->edge_active[e] = 1;
-        b->mean_rest_length += sim->length[e];
     }
+    for (uint32_t e = b->edge_begin; e < b->edge_end; e++)
+        b->mean_rest_length += sim->rest_length[e];
     b->mean_rest_length /= b->edge_end - b->edge_begin;
 }
 
-static void copy_triangles(struct sim *sim, const struct sim_balloon *b, const struct mesh *mesh)
+static void copy_triangles(struct sim *sim, const struct sim_balloon *b, const struct mesh *mesh,
+                           const struct places *places)
 {
-    for (uint32_t i = 0, t = b->triangle_begin; t < b->triangle_end; i++, t++) {
+    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+        const uint32_t t = b->triangle_begin + places->triangle[i];
         for (int k = 0; k < 3; k++) {
             sim->triangle_point[t][k] = b->point_begin + mesh->triangle[i][k];
-            sim->triangle_edge[t][k] = b->edge_begin + mesh->triangle_edge[i][k];
+            sim->triangle_edge[t][k] = b->edge_begin + places->edge[mesh->triangle_edge[i][k]];
         }
         sim->triangle_active[t] = 1;
     }
 }
 
-static void fill_balloon(struct sim *sim, struct sim_balloon *b, const struct mesh *mesh)
+static enum status fill_balloon(struct sim *sim, struct sim_balloon *b, const struct mesh *mesh,
+                                struct error *err)
 {
-    place_points(sim, b, mesh);
-    make_springs(sim, b, mesh);
-    copy_triangles(sim, b, mesh);
-    b->spring_factor = b->scene->spring_factor;
-    b->damping = b->scene->damping;
-    b->pressure = b->scene->pressure;
-    b->threshold_length = b->scene->threshold * b->mean_rest_length;
+    struct places places = {array_new(mesh->edge_count, sizeof(uint32_t)),
+                            array_new(mesh->triangle_count, sizeof(uint32_t)),
+                            array_new(mesh->point_count, sizeof(uint32_t))};
+    const bool room = places.edge && places.triangle && places.count;
+    if (room) {
+        parts_order(mesh, places.edge, places.triangle, places.count);
+        place_points(sim, b, mesh);
+        make_springs(sim, b, mesh, &places);
+        copy_triangles(sim, b, mesh, &places);
+        *b->now = (struct sim_settings){b->scene->spring_factor, b->scene->damping, b->scene->pressure,
+                                        b->scene->threshold * b->mean_rest_length, 0};
+    }
+    free(places.edge);
+    free(places.triangle);
+    free(places.count);
+    return room ? STATUS_OK : error_no_memory(err, "the points, edges and triangles");
 }
 
 static enum status count(struct sim *sim, const struct mesh *meshes, struct error *err)
@@ -132,33 +180,50 @@ static enum status count(struct sim *sim, const struct mesh *meshes, struct erro
     return STATUS_OK;
 }
 
-static void fill(struct sim *sim, const struct mesh *meshes)
+static enum status fill(struct sim *sim, const struct mesh *meshes, struct error *err)
 {
     uint32_t point = 0, edge = 0, triangle = 0;
-    for (size_t i = 0; i < sim->balloon_count; i++) {
+    enum status status = STATUS_OK;
+    for (size_t i = 0; i < sim->balloon_count && !status; i++) {
         struct sim_balloon *b = &sim->balloons[i];
         b->scene = &sim->scene->balloons[i];
+        b->now = &sim->settings[i];
         b->point_begin = point;
         b->edge_begin = edge;
         b->triangle_begin = triangle;
         b->point_end = point += meshes[i].point_count;
         b->edge_end = edge += meshes[i].edge_count;
         b->triangle_end = triangle += meshes[i].triangle_count;
-        fill_balloon(sim, b, &meshes[i]);
+        status = fill_balloon(sim, b, &meshes[i], err);
     }
+    return status;
 }
 
-enum status sim_open(struct sim *sim, const struct scene *scene, const struct mesh *meshes, struct error *err)
+static enum status build(struct sim *sim, const struct mesh *meshes, unsigned workers, struct error *err)
 {
-    *sim = (struct sim){.scene = scene, .balloon_count = scene->balloon_count, .step = scene->time.step};
-    sim->integrator = integrator_find(scene_integrator_names[scene->time.integrator]);
     enum status status = count(sim, meshes, err);
     if (!status)
         status = allocate(sim, err);
-    if (!status) {
-        fill(sim, meshes);
+    if (!status)
+        status = fill(sim, meshes, err);
+    if (!status)
+        status = threads_open(&sim->pool, workers, err);
+    if (!status)
+        status = parts_open(sim, err);
+    if (!status)
         status = effects_resolve(sim, err);
-    }
+    if (!status && sim->integrator->open)
+        status = sim->integrator->open(sim, err);
+    return status;
+}
+
+enum status sim_open(struct sim *sim, const struct scene *scene, const struct mesh *meshes, unsigned workers,
+                     struct error *err)
+{
+    *sim = (struct sim){.scene = scene, .balloon_count = scene->balloon_count, .step = scene->time.step};
+    sim->integrator = integrator_find(scene_integrator_names[scene->time.integrator]);
+    sim->kernels = kernels_find();
+    enum status status = build(sim, meshes, workers, err);
     if (status) {
         sim_clear(sim);
         return status;

@@ -7,13 +7,13 @@
 static void change_balloon(struct sim *sim, struct sim_balloon *balloon, const char *key, double value)
 {
     if (!strcmp(key, "pressure")) {
-        balloon->pressure = value;
+        balloon->now->pressure = value;
     } else if (!strcmp(key, "damping")) {
-        balloon->damping = value;
+        balloon->now->damping = value;
     } else if (!strcmp(key, "threshold")) {
-        balloon->threshold_length = value * balloon->mean_rest_length;
+        balloon->now->threshold_length = value * balloon->mean_rest_length;
     } else if (!strcmp(key, "spring_factor")) {
-        balloon->spring_factor = value;
+        balloon->now->spring_factor = value;
         for (uint32_t e = balloon->edge_begin; e < balloon->edge_end; e++)
             sim->current_spring_const[e] = sim->init_spring_const[e] * value;
     }

@@ -8,8 +8,8 @@
  *         if (sim_step(&sim, err)) ...                 never allocates; STATUS_DIVERGED names the point
  *     sim_clear(&sim);
  *
- * step.c is the method; open.c builds the tables that it works on; integrators.c and effects.c list what can be plugged
- * into it; measure.c and material.c look at the result.
+ * step.c is the method, and forces.c its formulas; open.c and parts.c build the tables that they work on; integrators.c and
+ * effects.c list what can be plugged in; state.c says what the future depends on; measure.c and material.c look at the result.
  */
 #ifndef SIM_SIM_H
 #define SIM_SIM_H
@@ -22,6 +22,16 @@
 #include <stdint.h>
 
 struct sim;
+struct sim_kernels;
+struct threads;
+
+/* A piece of the state: bytes that belong to sim. */
+struct sim_block {
+    const char *name;
+    void *data;
+    size_t size; /* bytes */
+};
+enum { SIM_BLOCKS_MAX = 64, SIM_VECTORS_MAX = 16 };
 
 /* One balloon's share of the tables, and the numbers that all its points and edges have in common. */
 struct sim_balloon {
@@ -29,20 +39,54 @@ struct sim_balloon {
     uint32_t point_begin, point_end;
     uint32_t edge_begin, edge_end;
     uint32_t triangle_begin, triangle_end;
-    double centre[3];                        /* of its points, at rest */
-    double radius;                           /* mean distance of its points from that centre, at rest */
-    double mean_rest_length;                 /* of its edges */
-    double spring_factor, damping, pressure; /* as the schedule has them now */
-    double threshold_length;                 /* at which an edge lets go */
-    bool ripped;                             /* the scene's rip has opened */
+    double centre[3];         /* of its points, at rest */
+    double radius;            /* mean distance of its points from that centre, at rest */
+    double mean_rest_length;  /* of its edges */
+    struct sim_settings *now; /* one of sim->settings */
 };
 
-/* A method that moves the points (integrators.c). */
+/* What changes about a balloon as a whole while time goes on. */
+struct sim_settings {
+    double spring_factor, damping, pressure; /* as the schedule has them now */
+    double threshold_length;                 /* at which an edge lets go */
+    uint64_t ripped;                         /* 1: the scene's rip has opened */
+};
+
+/* A share of one balloon's points: whoever works on it writes to these alone, and adds up what acts on a point in the order
+ * of edges and triangles, so that sums are equal to the bit however many parts there are. */
+struct sim_part {
+    struct sim_balloon *balloon;
+    uint32_t point_begin, point_end;
+    uint32_t edge_begin, edge_end;         /* the edges whose lower point is here */
+    uint32_t triangle_begin, triangle_end; /* the triangles whose lowest point is here */
+    uint32_t *edge_in, edge_in_count;      /* edges of lower parts that end here, in order; owned */
+    uint32_t *triangle_in, triangle_in_count;
+};
+
+/* A method that moves the points over one step of dt (integrators.c). It starts from sim->position, velocity and scalar and
+ * leaves the new ones there; it asks sim_forces() as often as its order needs, at trial states if need be; nothing breaks
+ * meanwhile. */
 struct integrator {
     const char *name;
-    int order; /* of the error in position at a fixed time */
-    void (*advance)(struct sim *sim);
+    int order;       /* of the error in position at a fixed time */
+    unsigned flags;  /* enum integrator_flags */
+    int evaluations; /* of sim_forces() a step; 0: it depends */
+    int vectors;     /* of sim->scratch that it needs */
+    /* The largest stable step: dt times the angular frequency of an undamped oscillator, and dt times the rate of a pure
+     * decay. INFINITY where any step is stable. */
+    double oscillation_limit, decay_limit;
+    enum status (*open)(struct sim *sim,
+                        struct error *err); /* makes sim->method, all zero before; NULL: nothing to make */
+    void (*close)(struct sim *sim);         /* NULL: nothing to free */
+    enum status (*advance)(struct sim *sim, double dt, struct error *err);
+    /* What it remembers from step to step, as blocks; returns how many. NULL: nothing. */
+    size_t (*blocks)(struct sim *sim, struct sim_block *blocks);
     const char *source;
+};
+enum integrator_flags {
+    INTEGRATOR_IMPLICIT = 1,   /* solves equations at each step */
+    INTEGRATOR_SYMPLECTIC = 2, /* keeps the energy of an undamped system bounded at fixed steps */
+    INTEGRATOR_ADAPTIVE = 4,   /* chooses its own steps within dt from time.tolerance */
 };
 extern const struct integrator *const integrators[]; /* NULL-terminated */
 const struct integrator *integrator_find(const char *name);
@@ -50,6 +94,7 @@ const struct integrator *integrator_find(const char *name);
 /* When an effect's hook runs. */
 enum effect_phase {
     EFFECT_OPEN,       /* once, when the tables are complete */
+    EFFECT_FORCES,     /* adds to sim->force and sim->scalar_rate at the current state */
     EFFECT_AFTER_STEP, /* at the end of each accepted step */
     EFFECT_PHASES,
 };
@@ -71,36 +116,52 @@ struct effect_hook {
 };
 
 struct sim {
-    /* Points: the paper's table 1. Its acceleration is force / mass. */
+    /* Points: the paper's table 1. Its acceleration is force / mass. Rows are x, y, z and 0, aligned to 32 bytes. */
     uint32_t point_count;
-    double (
-        *normal)[3]; /* [point_count] unit, outward; 0 where no triangle is left; by the last sim_forces() */
-    double (*position)[3]; /* [point_count] length */
-    double (*velocity)[3]; /* [point_count] length/s */
-    double (*force)[3];    /* [point_count] by sim_forces() */
+    double (*normal)[4]; /* [point_count] unit, outward; 0 where no skin is left; by the last sim_forces() */
+    double (*position)[4]; /* [point_count] length */
+    double (*velocity)[4]; /* [point_count] length/s */
+    double (*force)[4];    /* [point_count] by sim_forces() */
     double *mass;          /* [point_count] */
 
-    /* Edges: table 2. */
+    /* Edges: table 2, in the order of their points. */
     uint32_t edge_count;
-    uint32_t (*edge_point)[2];    /* [edge_count] point1, point2 */
+    uint32_t (*edge_point)[2];    /* [edge_count] point1 < point2 */
     double *rest_length;          /* [edge_count] */
-    double *length;               /* [edge_count] by break_edges(); of a broken edge, when it broke */
+    double *broken_length;        /* [edge_count] of a broken edge: its length when it broke */
     double *init_spring_const;    /* [edge_count] */
     double *current_spring_const; /* [edge_count] init_spring_const x the balloon's spring_factor */
     unsigned char *edge_active;   /* [edge_count] */
 
-    /* Triangles: table 3, an array instead of a linked list. Opacity and shininess are sim_material()'s, for frames
+    /* Triangles: table 3, an array instead of a linked list, in the order of their lowest points. Opacity and shininess are sim_material()'s, for frames
      * that are drawn. */
     uint32_t triangle_count;
     uint32_t (*triangle_point)[3];  /* [triangle_count] counter-clockwise from outside */
     uint32_t (*triangle_edge)[3];   /* [triangle_count] */
     unsigned char *triangle_active; /* [triangle_count] */
 
+    /* What no point carries, each with its rate of change: integrated along with the positions. */
+    uint32_t scalar_count;
+    double *scalar, *scalar_rate; /* [scalar_count] the rates by sim_forces() */
+
     const struct scene *scene;
-    struct sim_balloon *balloons; /* [balloon_count] */
+    struct sim_balloon *balloons;  /* [balloon_count] */
+    struct sim_settings *settings; /* [balloon_count] */
     size_t balloon_count;
 
+    /* Who works on what: worker w of the pool on parts w, w + workers, ... */
+    struct threads *pool;   /* NULL: the caller alone */
+    struct sim_part *parts; /* [part_count] of each balloon one a worker */
+    size_t part_count;
+    uint32_t *overlong; /* [part_count] edges past the threshold, by the last break_edges() */
+    const struct sim_kernels *kernels;
+    struct {
+        void *position, *velocity, *force, *normal; /* [point_count] what the kernels work on */
+    } rows;
+
     const struct integrator *integrator;
+    void *method;                          /* the integrator's own */
+    double (*scratch[SIM_VECTORS_MAX])[4]; /* [point_count] the integrator's, as many as it asked for */
     struct effect_hook
         *hooks[EFFECT_PHASES]; /* [hook_count[phase]] what this scene calls for, nothing else */
     size_t hook_count[EFFECT_PHASES];
@@ -125,9 +186,10 @@ struct sim {
 enum status sim_load_meshes(const struct scene *scene, struct mesh *meshes, struct mesh_report *reports,
                             struct error *err);
 
-/* Builds the tables for a checked scene; meshes[i] is balloon i's, connected (common/mesh.h). Errors: STATUS_NO_MEMORY,
- * STATUS_RANGE when all balloons together have more than 2^32 - 2 edges. On failure *sim is empty. */
-enum status sim_open(struct sim *sim, const struct scene *scene, const struct mesh *meshes,
+/* Builds the tables for a checked scene; meshes[i] is balloon i's, connected (common/mesh.h). `workers` threads work on a
+ * step (0: as many as the machine has); the results do not depend on it. Errors: STATUS_NO_MEMORY, STATUS_RESOURCE without
+ * threads, STATUS_RANGE when all balloons together have more than 2^32 - 2 edges. On failure *sim is empty. */
+enum status sim_open(struct sim *sim, const struct scene *scene, const struct mesh *meshes, unsigned workers,
                      struct error *err);
 void sim_clear(struct sim *sim);
 
@@ -138,13 +200,26 @@ enum status sim_step(struct sim *sim, struct error *err);
 /* Forces on every point at the current positions and velocities; for the integrators. */
 void sim_forces(struct sim *sim);
 
+/* Runs function on every part, each on its worker, and returns when all are done. */
+void sim_each_part(struct sim *sim,
+                   void (*function)(struct sim *sim, const struct sim_part *part, void *context),
+                   void *context);
+
+/* Of an active edge its length now; of a broken one that when it broke. */
+double sim_edge_length(const struct sim *sim, uint32_t edge);
+
 /* Makes one edge let go; for break_edges() and for effects. */
 static inline void sim_break_edge(struct sim *sim, uint32_t edge)
 {
+    sim->broken_length[edge] = sim_edge_length(sim, edge);
     sim->edge_active[edge] = 0;
     sim->edges_broke = true;
     sim->broken++;
 }
+
+/* Lists all that the future depends on (state.c): equal blocks, equal futures. Returns how many there are. The addresses
+ * stay until sim_clear(). */
+size_t sim_blocks(struct sim *sim, struct sim_block blocks[SIM_BLOCKS_MAX]);
 
 /* What there is to say about a state: a row of the log. */
 struct sim_measures {
@@ -176,7 +251,7 @@ enum status sim_skin(const struct sim *sim, struct mesh *mesh, struct error *err
 void sim_material(const struct sim *sim, float *opacity, float *shininess);
 
 /* A fingerprint of the whole state: equal states, equal numbers. */
-uint64_t sim_hash(const struct sim *sim);
+uint64_t sim_hash(struct sim *sim);
 
 /* Applies one entry of the schedule (schedule.c). */
 void sim_change(struct sim *sim, const struct scene_schedule *entry);
@@ -187,6 +262,12 @@ enum status sim_diverged(const struct sim *sim, struct error *err);
 /* The largest step that is surely stable for a balloon's springs and dampers: mu dt (2 k_d + k dt) < 4 m, with mu, the
  * largest eigenvalue of the spring graph, bounded by twice the largest number of edges at a point. 0: there is none. */
 double sim_stable_step(const struct sim *sim, const struct sim_balloon *balloon);
+
+/* Orders edges and triangles by their points and shares out the points among the workers (parts.c). edge_place[i] becomes
+ * where edge i of the mesh goes, from 0 on; triangle_place likewise. */
+void parts_order(const struct mesh *mesh, uint32_t *edge_place, uint32_t *triangle_place, uint32_t *count);
+enum status parts_open(struct sim *sim, struct error *err);
+void parts_close(struct sim *sim);
 
 /* Fills sim->hooks with what the scene calls for (STATUS_NO_MEMORY); runs the hooks of one phase. */
 enum status effects_resolve(struct sim *sim, struct error *err);

@@ -16,8 +16,8 @@ static void look_into(struct skins *skins, size_t i)
     const struct sim *sim = skins->sim;
     const struct sim_balloon *b = &sim->balloons[i];
     skins->meshes[i] = (struct mesh){.point_count = sim->point_count,
-                                     .position = sim->position,
-                                     .normal = sim->normal,
+                                     .position = skins->position,
+                                     .normal = skins->normal,
                                      .triangle_count = b->triangle_end - b->triangle_begin,
                                      .triangle = sim->triangle_point + b->triangle_begin};
     skins->skins[i] = (struct render_skin){.mesh = &skins->meshes[i],
@@ -35,7 +35,10 @@ enum status skins_init(struct skins *skins, struct sim *sim, struct error *err)
     skins->skins = array_new(sim->balloon_count, sizeof *skins->skins);
     skins->opacity = array_new(sim->triangle_count, sizeof *skins->opacity);
     skins->shininess = array_new(sim->triangle_count, sizeof *skins->shininess);
-    if (!skins->meshes || !skins->skins || !skins->opacity || !skins->shininess) {
+    skins->position = array_new(sim->point_count, sizeof *skins->position);
+    skins->normal = array_new(sim->point_count, sizeof *skins->normal);
+    if (!skins->meshes || !skins->skins || !skins->position || !skins->normal || !skins->opacity ||
+        !skins->shininess) {
         skins_clear(skins);
         return error_no_memory(err, "the skins");
     }
@@ -48,6 +51,8 @@ void skins_clear(struct skins *skins)
 {
     free(skins->meshes);
     free(skins->skins);
+    free(skins->position);
+    free(skins->normal);
     free(skins->opacity);
     free(skins->shininess);
     *skins = (struct skins){0};
@@ -55,7 +60,13 @@ void skins_clear(struct skins *skins)
 
 void skins_update(struct skins *skins)
 {
+    const struct sim *sim = skins->sim;
     sim_forces(skins->sim); /* for the normals where the points are now */
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        for (int i = 0; i < 3; i++) {
+            skins->position[p][i] = sim->position[p][i];
+            skins->normal[p][i] = sim->normal[p][i];
+        }
     sim_material(skins->sim, skins->opacity, skins->shininess);
 }
 

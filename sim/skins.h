@@ -7,7 +7,9 @@
 
 struct skins {
     struct sim *sim;
-    struct mesh *meshes;        /* [sim->balloon_count] look into the sim's arrays: not to be cleared */
+    struct mesh *meshes;   /* [sim->balloon_count] look into these arrays and the sim's: not to be cleared */
+    double (*position)[3]; /* [sim->point_count] */
+    double (*normal)[3];   /* [sim->point_count] */
     struct render_skin *skins;  /* [sim->balloon_count] what render_draw() takes */
     float *opacity, *shininess; /* [sim->triangle_count] */
 };

@@ -30,7 +30,7 @@ static void bench(struct mesh *mesh)
     bench_check(scene_set(&scene, "balloons[0].spring=1000", &err), &err);
     bench_check(scene_set(&scene, "balloons[0].point_mass=10", &err), &err);
     bench_check(scene_check(&scene, &err), &err);
-    bench_check(sim_open(&sim, &scene, mesh, &err), &err);
+    bench_check(sim_open(&sim, &scene, mesh, 1, &err), &err);
     const long steps = 4000000 / mesh->triangle_count + 2;
     const double step = time_step(&sim, steps);
     printf("%9u  %8u  %12.0f  %10.1f  %14.2f  %16.1f\n", mesh->triangle_count, sim.broken, 1 / step,

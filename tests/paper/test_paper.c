@@ -64,7 +64,7 @@ static struct story tell(const struct mesh *mesh, const char *const *changes)
     for (; *changes; changes++)
         assert_ok(scene_set(&scene, *changes, &err), &err);
     assert_ok(scene_check(&scene, &err), &err);
-    assert_ok(sim_open(&sim, &scene, mesh, &err), &err);
+    assert_ok(sim_open(&sim, &scene, mesh, 1, &err), &err);
 
     const struct sim_measures rest = sim_measure(&sim);
     struct story story = {.breaking = FRAMES};

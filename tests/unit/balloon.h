@@ -22,7 +22,7 @@ static inline void open_balloon(struct balloon *b, unsigned level, const char *c
         assert_ok(scene_set(&b->scene, *changes, &err), &err);
     assert_ok(scene_check(&b->scene, &err), &err);
     shape_icosphere(level, &b->mesh);
-    assert_ok(sim_open(&b->sim, &b->scene, &b->mesh, &err), &err);
+    assert_ok(sim_open(&b->sim, &b->scene, &b->mesh, 1, &err), &err);
 }
 #define SETTINGS(...) ((const char *const[]){__VA_ARGS__ __VA_OPT__(, ) NULL})
 

@@ -47,7 +47,7 @@ static void springs_by_height_follow_the_profile(void **state)
         const double height = fabs(b.mesh.position[b.sim.edge_point[e][0]][1]);
         if (height > 0.3 && height < 0.8)
             continue;
-        stretch[height > 0.5] += b.sim.length[e] / b.sim.rest_length[e];
+        stretch[height > 0.5] += sim_edge_length(&b.sim, e) / b.sim.rest_length[e];
         count[height > 0.5]++;
     }
     assert_true(stretch[0] / count[0] - 1 > 1.5 * (stretch[1] / count[1] - 1));
@@ -98,9 +98,9 @@ static void the_schedule_changes_step_and_pressure_between_steps(void **state)
                  SETTINGS("balloons[0].pressure=2", "schedule[0].at=0.05", "schedule[0].pressure=3",
                           "schedule[0].step=0.01", "schedule[1].at=0.07", "schedule[1].spring_factor=2"));
     steps(&b, 2); /* t = 0.05 */
-    assert_near(b.sim.balloons[0].pressure, 2, 0);
+    assert_near(b.sim.settings[0].pressure, 2, 0);
     steps(&b, 1);
-    assert_near(b.sim.balloons[0].pressure, 3, 0);
+    assert_near(b.sim.settings[0].pressure, 3, 0);
     assert_near(b.sim.time, 0.06, 1e-15);
     assert_near(b.sim.current_spring_const[0], 20, 0);
     steps(&b, 2);
@@ -124,6 +124,26 @@ static void two_runs_are_equal_to_the_bit_and_a_hash_tells_states_apart(void **s
     close_balloon(&b);
 }
 
+static void any_number_of_threads_gives_the_same_bits(void **state)
+{
+    (void)state;
+    static const unsigned workers[] = {2, 3, 7, 16};
+    struct error err = {0};
+    struct balloon one;
+    open_balloon(&one, 3, SETTINGS("balloons[0].pressure=10", "balloons[0].threshold=1.2"));
+    steps(&one, 60);
+    assert_true(one.sim.broken > 0);
+    for (size_t i = 0; i < sizeof workers / sizeof workers[0]; i++) {
+        struct sim sim;
+        assert_ok(sim_open(&sim, &one.scene, &one.mesh, workers[i], &err), &err);
+        for (int step = 0; step < 60; step++)
+            assert_ok(sim_step(&sim, &err), &err);
+        assert_true(sim_hash(&sim) == sim_hash(&one.sim));
+        sim_clear(&sim);
+    }
+    close_balloon(&one);
+}
+
 static void several_balloons_move_as_each_would_alone(void **state)
 {
     (void)state;
@@ -139,7 +159,7 @@ static void several_balloons_move_as_each_would_alone(void **state)
     scene.balloon_count = 2;
     struct mesh meshes[2] = {alone.mesh, alone.mesh};
     struct sim sim;
-    assert_ok(sim_open(&sim, &scene, meshes, &err), &err);
+    assert_ok(sim_open(&sim, &scene, meshes, 1, &err), &err);
     for (int i = 0; i < 50; i++)
         assert_ok(sim_step(&sim, &err), &err);
     assert_memory_equal(sim.position + alone.sim.point_count, alone.sim.position,
@@ -168,7 +188,7 @@ static void a_run_that_diverges_names_point_time_and_the_likely_cause(void **sta
     open_balloon(&b, 1, SETTINGS("time.step=1", "balloons[0].threshold=1e6", "balloons[0].spring=1e6"));
     /* the threshold is far; each step multiplies what is wrong by about 1e7, so that 100 steps pass any double */
     for (uint32_t e = 0; e < b.sim.edge_count; e++)
-        b.sim.balloons[0].threshold_length = INFINITY;
+        b.sim.settings[0].threshold_length = INFINITY;
     enum status status = STATUS_OK;
     for (int i = 0; i < 200 && !status; i++)
         status = sim_step(&b.sim, &err);
@@ -191,8 +211,9 @@ static void stretched_skin_is_clearer_and_shinier(void **state)
         /* at stretch L: 1 - 0.1^(1/L^2), and 10 L^4; floats */
         assert_near(opacity[3], twice ? 1 - pow(0.1, 0.25) : 0.9, 1e-6);
         assert_near(shininess[3], twice ? 160 : 10, 1e-4);
-        for (uint32_t e = 0; e < b.sim.edge_count; e++)
-            b.sim.length[e] *= 2;
+        for (uint32_t p = 0; p < b.sim.point_count; p++)
+            for (int i = 0; i < 3; i++)
+                b.sim.position[p][i] *= 2;
     }
     free(opacity);
     free(shininess);
@@ -218,6 +239,7 @@ int main(void)
         cmocka_unit_test(a_rip_waits_for_its_stretch),
         cmocka_unit_test(the_schedule_changes_step_and_pressure_between_steps),
         cmocka_unit_test(two_runs_are_equal_to_the_bit_and_a_hash_tells_states_apart),
+        cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
         cmocka_unit_test(several_balloons_move_as_each_would_alone),
         cmocka_unit_test(an_effect_that_is_off_has_no_hook),
         cmocka_unit_test(a_run_that_diverges_names_point_time_and_the_likely_cause),

@@ -134,8 +134,8 @@ static void an_edge_past_the_threshold_lets_go_at_the_end_of_the_step(void **sta
     for (uint32_t e = 0; e < b.sim.edge_count; e++) {
         const uint32_t *q = b.sim.edge_point[e];
         double length = vec3_distance(b.sim.position[q[0]], b.sim.position[q[1]]);
-        assert_int_equal(b.sim.edge_active[e], !(length > b.sim.balloons[0].threshold_length));
-        assert_near(b.sim.length[e], length, 1e-12);
+        assert_int_equal(b.sim.edge_active[e], !(length > b.sim.settings[0].threshold_length));
+        assert_near(sim_edge_length(&b.sim, e), length, 1e-12);
     }
     close_balloon(&b);
 }

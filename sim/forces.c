@@ -1,0 +1,159 @@
+/*
+ * Parts 1 to 4 of a step (paper 3.5): springs and dampers, normals, pressure. Compiled once for each precision and set of
+ * instructions (kernels.h): SIM_REAL is the type of number, SIM_KERNELS the name of the table at the end.
+ *
+ * A row is x, y, z and 0: GCC's vectors, so that arithmetic reads as on paper and runs four wide.
+ */
+#include "sim/kernels.h"
+
+#include <math.h>
+
+typedef SIM_REAL real;
+typedef real row __attribute__((vector_size(4 * sizeof(real)), may_alias));
+
+static inline real dot(row a, row b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline row cross(row a, row b)
+{
+    return (row){a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0};
+}
+
+static inline real length_of(row a)
+{
+    return sizeof(real) == sizeof(float) ? (real)sqrtf((float)dot(a, a)) : (real)sqrt((double)dot(a, a));
+}
+
+/* What has no length has no direction either. */
+static inline real inverse(real length)
+{
+    return length > 0 ? 1 / length : 0;
+}
+
+/* Part 1: "initialize acceleration and normal vectors to (0,0,0)". */
+static void clear_points(struct sim *sim, const struct sim_part *part)
+{
+    row *force = sim->rows.force, *normal = sim->rows.normal;
+    for (uint32_t p = part->point_begin; p < part->point_end; p++)
+        force[p] = normal[p] = (row){0};
+}
+
+/* The tables that a loop reads, as local variables: for all that the compiler knows, a row that is written might be one of
+ * the addresses in struct sim, which it would then read again for each edge. */
+struct edges {
+    const row *position, *velocity;
+    const uint32_t (*point)[2];
+    const double *spring_const, *rest_length;
+    const unsigned char *active;
+    real damping;
+};
+
+static inline struct edges edges_of(const struct sim *sim, const struct sim_part *part)
+{
+    return (struct edges){sim->rows.position,
+                          sim->rows.velocity,
+                          (const uint32_t(*)[2])sim->edge_point,
+                          sim->current_spring_const,
+                          sim->rest_length,
+                          sim->edge_active,
+                          (real)part->balloon->now->damping};
+}
+
+/* Part 2: springs and dampers. With l = a - b and its length |l|,
+ *     f_a = -[k_s (|l| - r) + k_d (v . l)/|l|] l/|l|,   f_b = -f_a      Witkin, SIGGRAPH '95 course notes 34
+ * The paper prints |v| under the damper's l: a misprint, since that would be 0/0 in a balloon at rest. An edge of no
+ * length has no direction and pulls at nothing. Returns f_b. */
+static inline row edge_force(const struct edges *edges, uint32_t e)
+{
+    const uint32_t a = edges->point[e][0], b = edges->point[e][1];
+    const row l = edges->position[a] - edges->position[b], v = edges->velocity[a] - edges->velocity[b];
+    const real length = length_of(l);
+    const real spring = (real)edges->spring_const[e] * (length - (real)edges->rest_length[e]);
+    const real damper = edges->damping * dot(v, l) * inverse(length);
+    return (spring + damper) * inverse(length) * l;
+}
+
+static void edge_forces(struct sim *sim, const struct sim_part *part)
+{
+    const struct edges edges = edges_of(sim, part);
+    const uint32_t end = part->edge_end, point_end = part->point_end;
+    row *force = sim->rows.force;
+    for (uint32_t i = 0; i < part->edge_in_count; i++) {
+        const uint32_t e = part->edge_in[i];
+        if (edges.active[e])
+            force[edges.point[e][1]] += edge_force(&edges, e);
+    }
+    for (uint32_t e = part->edge_begin; e < end; e++) {
+        if (!edges.active[e])
+            continue;
+        const row f = edge_force(&edges, e);
+        force[edges.point[e][0]] -= f;
+        if (edges.point[e][1] < point_end)
+            force[edges.point[e][1]] += f;
+    }
+}
+
+/* Part 3: the unit normal of a triangle, which each active one adds to its three points'. A triangle without area has none
+ * to add. */
+static inline row triangle_normal(const row *position, const uint32_t *p)
+{
+    const row twice_area = cross(position[p[1]] - position[p[0]], position[p[2]] - position[p[0]]);
+    return twice_area * inverse(length_of(twice_area));
+}
+
+static void triangle_normals(struct sim *sim, const struct sim_part *part)
+{
+    const row *position = sim->rows.position;
+    row *normal = sim->rows.normal;
+    const uint32_t(*point)[3] = (const uint32_t(*)[3])sim->triangle_point;
+    const unsigned char *active = sim->triangle_active;
+    const uint32_t begin = part->point_begin, own = part->point_end - begin, end = part->triangle_end;
+    for (uint32_t i = 0; i < part->triangle_in_count; i++) {
+        const uint32_t t = part->triangle_in[i];
+        for (int k = 0; k < 3 && active[t]; k++)
+            if (point[t][k] - begin < own)
+                normal[point[t][k]] += triangle_normal(position, point[t]);
+    }
+    for (uint32_t t = part->triangle_begin; t < end; t++) {
+        if (!active[t])
+            continue;
+        const row n = triangle_normal(position, point[t]);
+        for (int k = 0; k < 3; k++)
+            if (point[t][k] - begin < own)
+                normal[point[t][k]] += n;
+    }
+}
+
+/* Part 4: normalize the normals; pressure is a force along them. A point that lost its last triangle has no normal, and
+ * nothing for the air to press on. */
+static void pressure_forces(struct sim *sim, const struct sim_part *part)
+{
+    row *force = sim->rows.force, *normal = sim->rows.normal;
+    const real pressure = (real)part->balloon->now->pressure;
+    for (uint32_t p = part->point_begin; p < part->point_end; p++) {
+        normal[p] *= inverse(length_of(normal[p]));
+        force[p] += pressure * normal[p];
+    }
+}
+
+/* Part 2: "check if the length of the edge is greater than the threshold value". */
+static uint32_t count_overlong(const struct sim *sim, const struct sim_part *part)
+{
+    const row *position = sim->rows.position;
+    const uint32_t(*point)[2] = (const uint32_t(*)[2])sim->edge_point;
+    const unsigned char *active = sim->edge_active;
+    const real limit = (real)(part->balloon->now->threshold_length * part->balloon->now->threshold_length);
+    const uint32_t end = part->edge_end;
+    uint32_t count = 0;
+    for (uint32_t e = part->edge_begin; e < end; e++) {
+        const row l = position[point[e][0]] - position[point[e][1]];
+        count += (dot(l, l) > limit) & active[e];
+    }
+    return count;
+}
+
+extern const struct sim_kernels SIM_KERNELS;
+const struct sim_kernels SIM_KERNELS = {clear_points, edge_forces, triangle_normals, pressure_forces,
+                                        count_overlong};

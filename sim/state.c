@@ -1,0 +1,50 @@
+/* What the future depends on: the one list that checkpoints, rewinding, trial steps and the hash go by. */
+#include "common/hash.h"
+#include "common/vec3.h"
+#include "sim/sim.h"
+
+double sim_edge_length(const struct sim *sim, uint32_t edge)
+{
+    const uint32_t *p = sim->edge_point[edge];
+    return sim->edge_active[edge] ? vec3_distance(sim->position[p[0]], sim->position[p[1]])
+                                  : sim->broken_length[edge];
+}
+
+size_t sim_blocks(struct sim *sim, struct sim_block blocks[SIM_BLOCKS_MAX])
+{
+    const size_t points = sim->point_count, edges = sim->edge_count;
+    const struct sim_block own[] = {
+        {"time", &sim->time, sizeof sim->time},
+        {"step", &sim->step, sizeof sim->step},
+        {"time base", &sim->time_base, sizeof sim->time_base},
+        {"steps since", &sim->steps_since, sizeof sim->steps_since},
+        {"steps", &sim->steps, sizeof sim->steps},
+        {"next change", &sim->next_change, sizeof sim->next_change},
+        {"edges broke", &sim->edges_broke, sizeof sim->edges_broke},
+        {"broken", &sim->broken, sizeof sim->broken},
+        {"position", sim->position, points * sizeof *sim->position},
+        {"velocity", sim->velocity, points * sizeof *sim->velocity},
+        {"spring constant", sim->current_spring_const, edges * sizeof *sim->current_spring_const},
+        {"broken length", sim->broken_length, edges * sizeof *sim->broken_length},
+        {"edge active", sim->edge_active, edges * sizeof *sim->edge_active},
+        {"triangle active", sim->triangle_active, sim->triangle_count * sizeof *sim->triangle_active},
+        {"scalar", sim->scalar, sim->scalar_count * sizeof *sim->scalar},
+        {"settings", sim->settings, sim->balloon_count * sizeof *sim->settings},
+    };
+    size_t count = 0;
+    for (; count < sizeof own / sizeof own[0]; count++)
+        blocks[count] = own[count];
+    if (sim->integrator->blocks)
+        count += sim->integrator->blocks(sim, &blocks[count]);
+    return count;
+}
+
+uint64_t sim_hash(struct sim *sim)
+{
+    struct sim_block blocks[SIM_BLOCKS_MAX];
+    const size_t count = sim_blocks(sim, blocks);
+    uint64_t hash = HASH_START;
+    for (size_t i = 0; i < count; i++)
+        hash = hash_bytes(hash, blocks[i].data, blocks[i].size);
+    return hash;
+}
