@@ -1,0 +1,117 @@
+#include "sim/options.h"
+#include "common/array.h"
+#include "common/command.h"
+#include "common/mesh.h"
+#include "common/threads.h"
+
+#include <stdlib.h>
+
+enum {
+    OPTION_FRAMES = 256,
+    OPTION_MOVIE,
+    OPTION_SHEET,
+    OPTION_LOG,
+    OPTION_SET,
+    OPTION_THREADS,
+    OPTION_HASH,
+    OPTION_CHECK,
+    OPTION_EXPLAIN,
+    OPTION_HELP_SCENE
+};
+
+static const struct argp_option option_table[] = {
+    {"frames", OPTION_FRAMES, "DIR", 0, "Draw the frames into this folder: frame_0000.png, ...", 1},
+    {"movie", OPTION_MOVIE, "FILE", 0, "Make a movie (.mp4, .webm or .gif; needs the program ffmpeg)", 1},
+    {"contact-sheet", OPTION_SHEET, "FILE.png", 0, "Draw twelve moments into one picture", 1},
+    {"log", OPTION_LOG, "FILE.tsv", 0, "Write a row of measures a frame", 1},
+    {"output", 'o', "FILE", 0, "Write the skin as it is at the end (.ply, .stl or .obj)", 1},
+    {"hash", OPTION_HASH, 0, 0, "Print a 64-bit hash of the final state as the last line", 1},
+    {"set", OPTION_SET, "KEY=VALUE", 0, "Change a key of the scene, by its path: balloons[0].pressure=12", 2},
+    {"threads", OPTION_THREADS, "N", 0,
+     "How many threads work on a step (default: the machine's); results are equal to the bit", 2},
+    {"check", OPTION_CHECK, 0, 0, "Read the scene and its meshes, say what is there, and stop", 3},
+    {"explain", OPTION_EXPLAIN, 0, 0, "Say which effects are on or off, and why, and stop", 3},
+    {"help-scene", OPTION_HELP_SCENE, 0, 0, "Print every key that a scene can have, and stop", 3},
+    {"quiet", 'q', 0, 0, "No notes, no progress", 4},
+    {0},
+};
+
+static error_t parse_option(int key, char *argument, struct argp_state *state)
+{
+    struct options *o = state->input;
+    switch (key) {
+    case OPTION_FRAMES:
+        o->frames = argument;
+        break;
+    case OPTION_MOVIE:
+        o->movie = argument;
+        break;
+    case OPTION_SHEET:
+        o->sheet = argument;
+        break;
+    case OPTION_LOG:
+        o->log = argument;
+        break;
+    case 'o':
+        if (!mesh_is_file_name(argument))
+            argp_error(state, "-o %s: must end in .ply, .stl or .obj", argument);
+        o->mesh = argument;
+        break;
+    case OPTION_THREADS:
+        o->threads = (unsigned)command_whole(state, "--threads", argument, 1, THREADS_MAX);
+        break;
+    case OPTION_HASH:
+        o->hash = true;
+        break;
+    case OPTION_SET:
+        o->set[o->set_count++] = argument;
+        break;
+    case OPTION_CHECK:
+        o->check = true;
+        break;
+    case OPTION_EXPLAIN:
+        o->explain = true;
+        break;
+    case OPTION_HELP_SCENE:
+        o->help_scene = true;
+        break;
+    case 'q':
+        command_set_quiet(true);
+        break;
+    case ARGP_KEY_ARG:
+        if (o->scene)
+            argp_error(state, "%s: one scene or mesh at a time", argument);
+        o->scene = argument;
+        break;
+    case ARGP_KEY_END:
+        if (!o->scene && !o->help_scene)
+            argp_error(state, "give a scene (.cfg) or a mesh (.ply, .stl, .obj)");
+        break;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+    return 0;
+}
+
+bool options_parse(struct options *options, int argc, char **argv)
+{
+    static const struct argp argp = {
+        option_table,
+        parse_option,
+        "SCENE.cfg\nMESH",
+        "Inflates the balloons of a scene, or one mesh with the paper's settings, until they burst.",
+        0,
+        0,
+        0};
+    *options = (struct options){.set = array_new((size_t)argc, sizeof *options->set)};
+    if (!options->set)
+        return false;
+    argp_parse(&argp, argc, argv, 0, NULL, options);
+    return true;
+}
+
+void options_clear(struct options *options)
+{
+    free(options->set);
+    *options = (struct options){0};
+}

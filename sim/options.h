@@ -1,0 +1,22 @@
+/* balloon-sim's command line. */
+#ifndef SIM_OPTIONS_H
+#define SIM_OPTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+struct options {
+    const char *scene;
+    const char **set; /* [set_count] KEY=VALUE, in order */
+    size_t set_count;
+    const char *frames, *movie, *sheet, *log, *mesh;
+    unsigned threads; /* 0: as many as the machine has */
+    bool hash, check, explain, help_scene;
+};
+
+/* Reads the command line; texts are borrowed from argv. Wrong usage ends the program with 2, --help and --version with 0.
+ * False: not enough memory. */
+bool options_parse(struct options *options, int argc, char **argv);
+void options_clear(struct options *options);
+
+#endif
