@@ -186,16 +186,27 @@ static enum status go_on(struct journal *journal, const struct journal_text *tex
     return text->operations > 0 ? journal_append(journal, "step\n", err) : STATUS_OK;
 }
 
+/* One that was made just now, or never got its first line, is not left behind. */
+static void remove_if_empty(const struct journal *journal)
+{
+    struct stat info;
+    if (!fstat(journal->file, &info) && info.st_size == 0)
+        unlink(journal->path);
+}
+
 static enum status open_file(struct journal *journal, const char *path, const struct octree *tree,
                              struct error *err)
 {
     struct bytes file = {0};
     struct journal_text text;
     enum status status = open_locked(journal, path, err);
-    if (!status)
-        status = file_read(journal->path, &file, err);
     if (status)
         return status;
+    status = file_read(journal->path, &file, err);
+    if (status) {
+        remove_if_empty(journal);
+        return status;
+    }
     status = journal_text_read(&file, &text, err);
     bytes_clear(&file);
     if (status)

@@ -21,14 +21,21 @@ struct recovery {
     bool exists, is_base, is_whole; /* the file `path`: is there, is the base itself, could be read */
 };
 
-/* Loads `path` when its hash is the one that the journal begins from. */
-static bool load_base(struct recovery *recovery, const char *path)
+/* Loads `path` when its hash is the one that the journal begins from; *found says whether it is. Not to be there is no
+ * error. */
+static enum status load_base(struct recovery *recovery, const char *path, bool *found, struct error *err)
 {
     struct bytes file = {0};
-    struct error ignored;
-    bool same = !file_read(path, &file, &ignored) && journal_hash(&file) == recovery->text.start.hash;
+    *found = false;
+    if (access(path, F_OK))
+        return STATUS_OK;
+    enum status status = file_read(path, &file, err);
+    const bool same = !status && journal_hash(&file) == recovery->text.start.hash;
     bytes_clear(&file);
-    return same && !octree_load_with(path, &recovery->begun, &recovery->chunks, &ignored);
+    if (same)
+        status = octree_load_with(path, &recovery->begun, &recovery->chunks, err);
+    *found = same && !status;
+    return status;
 }
 
 static enum status refuse(const struct recovery *recovery, struct error *err)
@@ -39,6 +46,20 @@ static enum status refuse(const struct recovery *recovery, struct error *err)
                      recovery->name, recovery->path);
 }
 
+/* The file that the journal begins from, under either name. Where one cannot be read the other may be it. */
+static enum status find_base(struct recovery *recovery, struct error *err)
+{
+    struct error failure = {0}, ignored = {0};
+    bool found;
+    load_base(recovery, recovery->path, &recovery->is_base, &failure);
+    if (recovery->is_base)
+        return STATUS_OK;
+    load_base(recovery, recovery->base, &found, failure.status ? &ignored : &failure);
+    if (found)
+        return STATUS_OK;
+    return failure.status ? error_set(err, failure.status, "%s", failure.text) : refuse(recovery, err);
+}
+
 static enum status find_begin(struct recovery *recovery, struct error *err)
 {
     const struct journal_start *start = &recovery->text.start;
@@ -47,10 +68,8 @@ static enum status find_begin(struct recovery *recovery, struct error *err)
     recovery->is_whole = recovery->exists && !octree_load(recovery->path, &recovery->saved, &damage);
     if (damage.status == STATUS_NO_MEMORY)
         return error_no_memory(err, recovery->path);
-    if (start->is_cube)
-        return octree_init(&recovery->begun, start->depth, start->material, err);
-    recovery->is_base = recovery->exists && load_base(recovery, recovery->path);
-    return recovery->is_base || load_base(recovery, recovery->base) ? STATUS_OK : refuse(recovery, err);
+    return start->is_cube ? octree_init(&recovery->begun, start->depth, start->material, err)
+                          : find_base(recovery, err);
 }
 
 /* In a journal a step ends only where a line says so, even while there is no such line yet. */

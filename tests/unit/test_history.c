@@ -1,89 +1,6 @@
-/* Undo and redo, to the byte; what happens where memory ends. This program is linked so that an allocation can be made
- * to fail. */
-#include "check.h"
-#include "common/hash.h"
-#include "common/octree_blocks.h"
-#include "common/random.h"
+/* Undo and redo, to the byte. */
 #include "sculpt/history.h"
-#include "sculpt/sculpt.h"
-
-static long until_failure = -1; /* allocations that still succeed; below 0: all */
-
-void *__real_malloc(size_t size);
-void *__real_realloc(void *old, size_t size);
-void *__wrap_malloc(size_t size);
-void *__wrap_realloc(void *old, size_t size);
-
-void *__wrap_malloc(size_t size)
-{
-    return until_failure >= 0 && until_failure-- == 0 ? NULL : __real_malloc(size);
-}
-
-void *__wrap_realloc(void *old, size_t size)
-{
-    return until_failure >= 0 && until_failure-- == 0 ? NULL : __real_realloc(old, size);
-}
-
-static struct octree new_tree(unsigned depth, unsigned material)
-{
-    struct octree tree = {0};
-    struct error err = {0};
-    assert_ok(octree_init(&tree, depth, material, &err), &err);
-    return tree;
-}
-
-/* Every byte that an octree is made of. */
-static uint64_t fingerprint(const struct octree *tree)
-{
-    const uint32_t head[] = {tree->root, tree->block_count, tree->free_count,
-                             tree->free_count ? tree->free_block : 0};
-    uint64_t hash = hash_bytes(HASH_START, head, sizeof head);
-    return tree->block_count ? hash_bytes(hash, tree->blocks, 32 * (size_t)tree->block_count) : hash;
-}
-
-/* Blocks in the tree; fails where eight equal leaves were not merged. */
-static size_t count_blocks(const struct octree *tree, octree_node node)
-{
-    if (!node_is_split(node))
-        return 0;
-    const octree_node *child = tree->blocks + node_children(node);
-    size_t blocks = 1;
-    bool equal = !node_is_split(child[0]);
-    for (int i = 0; i < 8; i++) {
-        blocks += count_blocks(tree, child[i]);
-        equal = equal && child[i] == child[0];
-    }
-    assert_false(equal);
-    return blocks;
-}
-
-/* Every block is in the tree or on the free list. */
-static void assert_sound(const struct octree *tree)
-{
-    assert_int_equal(count_blocks(tree, tree->root), tree->block_count - tree->free_count);
-    uint32_t block = tree->free_block;
-    for (uint32_t i = 0; i < tree->free_count; i++) {
-        assert_true(block < tree->block_count);
-        block = tree->blocks[8 * (size_t)block];
-    }
-}
-
-static struct chip random_chip(double size, uint64_t *seed)
-{
-    static const enum chip_kind kinds[8] = {CHIP_CARVE, CHIP_CARVE, CHIP_CARVE,     CHIP_CARVE,
-                                            CHIP_CARVE, CHIP_CARVE, CHIP_SANDPAPER, CHIP_HEAT};
-    uint64_t bits = random_bits(seed);
-    struct chip chip = {.kind = kinds[bits % 8], .material = (unsigned)(bits >> 8) % 3};
-    chip.shape = bits >> 16 & 1 ? CHIP_SPHERE : CHIP_BOX;
-    chip.mirror = bits >> 24 & 1 ? (unsigned)(bits >> 32) % 8 : 0;
-    for (int k = 0; k < 3; k++) {
-        chip.value[k] = 1.2 * random_unit(seed) - 0.1;
-        chip.value[k + 3] = chip.value[k] + size * (0.1 + random_unit(seed));
-    }
-    if (chip.shape == CHIP_SPHERE || chip.kind != CHIP_CARVE)
-        chip.value[3] = size * (0.1 + random_unit(seed));
-    return chip;
-}
+#include "trees.h"
 
 static void do_step(struct history *history, struct octree *tree, const struct chip *chip, int chips)
 {
@@ -104,8 +21,8 @@ static void check_there_and_back(unsigned depth, double size, int operations, ui
     history_init(&history, SIZE_MAX);
     hash[0] = fingerprint(&tree);
     for (int i = 0; i < operations; i++) {
-        const struct chip chips[3] = {random_chip(size, &seed), random_chip(size, &seed),
-                                      random_chip(size, &seed)};
+        const struct chip chips[3] = {random_operation(size, &seed), random_operation(size, &seed),
+                                      random_operation(size, &seed)};
         do_step(&history, &tree, chips, 1 + (int)(random_bits(&seed) % 3));
         hash[history.count] = fingerprint(&tree);
     }
@@ -154,7 +71,7 @@ static void wandering_through_the_history_meets_the_same_trees(void **state)
     for (int i = 0; i < STEPS; i++) {
         uint64_t way = random_bits(&seed) % 8;
         if (way < 3) {
-            const struct chip chip = random_chip(0.3, &seed);
+            const struct chip chip = random_operation(0.3, &seed);
             do_step(&history, &tree, &chip, 1);
             hash[history.done] = fingerprint(&tree);
         } else if (way < 6) {
@@ -181,7 +98,7 @@ static void a_recorded_tree_is_made_of_the_same_bytes(void **state)
     struct octree recorded = new_tree(6, 1), plain = new_tree(6, 1);
     history_init(&history, SIZE_MAX);
     for (int i = 0; i < 300; i++) {
-        const struct chip chip = random_chip(0.3, &seed);
+        const struct chip chip = random_operation(0.3, &seed);
         do_step(&history, &recorded, &chip, 1);
         assert_ok(sculpt_chip(&plain, &chip, &err), &err);
         assert_int_equal(fingerprint(&recorded), fingerprint(&plain));
@@ -258,7 +175,7 @@ static void every_cell_that_changes_lies_in_a_region(void **state)
     history_init(&history, SIZE_MAX);
     for (int i = 0; i < 200; i++) {
         struct octree_regions regions;
-        const struct chip chip = random_chip(0.3, &seed);
+        const struct chip chip = random_operation(0.3, &seed);
         assert_ok(octree_copy(&before, &tree, &err), &err);
         history_begin(&history, &tree);
         assert_ok(sculpt_chip(&tree, &chip, &err), &err);
@@ -385,7 +302,7 @@ static void a_step_that_is_cancelled_leaves_no_trace(void **state)
     struct octree tree = new_tree(5, 1);
     history_init(&history, SIZE_MAX);
     for (int i = 0; i < 100; i++) {
-        const struct chip chips[2] = {random_chip(0.4, &seed), random_chip(0.4, &seed)};
+        const struct chip chips[2] = {random_operation(0.4, &seed), random_operation(0.4, &seed)};
         const uint64_t before = fingerprint(&tree);
         history_begin(&history, &tree);
         assert_ok(sculpt_chip(&tree, &chips[0], &err), &err);
@@ -395,71 +312,6 @@ static void a_step_that_is_cancelled_leaves_no_trace(void **state)
     }
     history_clear(&history);
     octree_clear(&tree);
-}
-
-/* One operation on a copy of `start`, with the allocation of this number failing. True when none failed. */
-static bool check_failure(const struct octree *start, const struct chip *chip, long number)
-{
-    struct error err = {0};
-    struct history history;
-    struct octree tree = {0}, done = {0};
-    history_init(&history, SIZE_MAX);
-    assert_ok(octree_copy(&tree, start, &err), &err);
-    assert_ok(octree_copy(&done, start, &err), &err);
-    assert_ok(sculpt_chip(&done, chip, &err), &err);
-    until_failure = number;
-    history_begin(&history, &tree);
-    enum status status = sculpt_chip(&tree, chip, &err);
-    bool kept = status ? history_cancel(&history, &tree) : history_end(&history, &tree, NULL);
-    const bool reached = until_failure < 0;
-    until_failure = -1;
-    assert_sound(&tree);
-    if (status)
-        assert_int_equal(status, STATUS_NO_MEMORY);
-    if (status && kept)
-        assert_int_equal(fingerprint(&tree), fingerprint(start));
-    if (!status)
-        assert_true(octree_equal(&tree, &done));
-    if (!status && kept && history.count > 0) {
-        assert_true(history_undo(&history, &tree, NULL));
-        assert_int_equal(fingerprint(&tree), fingerprint(start));
-    }
-    history_clear(&history);
-    octree_clear(&tree);
-    octree_clear(&done);
-    return !reached;
-}
-
-/* The same without a history: the tree may have changed in part, but it is a tree. */
-static void check_failure_unrecorded(const struct octree *start, const struct chip *chip, long number)
-{
-    struct error err = {0};
-    struct octree tree = {0};
-    assert_ok(octree_copy(&tree, start, &err), &err);
-    until_failure = number;
-    enum status status = sculpt_chip(&tree, chip, &err);
-    until_failure = -1;
-    assert_true(status == STATUS_OK || status == STATUS_NO_MEMORY);
-    assert_sound(&tree);
-    octree_clear(&tree);
-}
-
-static void memory_that_ends_anywhere_leaves_the_tree_whole(void **state)
-{
-    (void)state;
-    uint64_t seed = 12;
-    struct error err = {0};
-    struct octree start = new_tree(6, 1);
-    for (int i = 0; i < 60; i++) {
-        const struct chip chip = random_chip(0.4, &seed);
-        long number = 0;
-        while (!check_failure(&start, &chip, number)) {
-            check_failure_unrecorded(&start, &chip, number);
-            number++;
-        }
-        assert_ok(sculpt_chip(&start, &chip, &err), &err);
-    }
-    octree_clear(&start);
 }
 
 int main(void)
@@ -475,7 +327,6 @@ int main(void)
         cmocka_unit_test(the_oldest_steps_are_dropped_at_the_limit),
         cmocka_unit_test(a_step_larger_than_the_limit_is_done_but_ends_the_history),
         cmocka_unit_test(a_step_that_is_cancelled_leaves_no_trace),
-        cmocka_unit_test(memory_that_ends_anywhere_leaves_the_tree_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
