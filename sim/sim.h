@@ -22,6 +22,7 @@
 #include <stdint.h>
 
 struct sim;
+struct sim_jacobian;
 struct sim_kernels;
 struct threads;
 
@@ -105,6 +106,10 @@ struct effect {
     enum effect_phase phase;
     bool (*wanted)(const struct scene_balloon *balloon);
     void (*apply)(struct sim *sim, struct sim_balloon *balloon);
+    /* EFFECT_FORCES: adds to df a K dx + b D dv (jacobian.h), the derivatives of its own forces at the current state. NULL:
+     * its forces depend on neither positions nor velocities. */
+    void (*product)(struct sim *sim, struct sim_balloon *balloon, double a, double (*dx)[4], double b,
+                    double (*dv)[4], double (*df)[4]);
     const char *source;
 };
 extern const struct effect *const effects[]; /* NULL-terminated */
@@ -160,8 +165,10 @@ struct sim {
     } rows;
 
     const struct integrator *integrator;
-    void *method;                          /* the integrator's own */
-    double (*scratch[SIM_VECTORS_MAX])[4]; /* [point_count] the integrator's, as many as it asked for */
+    void *method;                            /* the integrator's own */
+    double (*scratch[SIM_VECTORS_MAX])[4];   /* [point_count] the integrator's, as many as it asked for */
+    double *scalar_scratch[SIM_VECTORS_MAX]; /* [scalar_count] likewise, one to each of scratch */
+    double *block_sum;                       /* [point_count / VECTOR_BLOCK + 1] for vector_sum() */
     struct effect_hook
         *hooks[EFFECT_PHASES]; /* [hook_count[phase]] what this scene calls for, nothing else */
     size_t hook_count[EFFECT_PHASES];
@@ -199,6 +206,10 @@ enum status sim_step(struct sim *sim, struct error *err);
 
 /* Forces on every point at the current positions and velocities; for the integrators. */
 void sim_forces(struct sim *sim);
+
+/* Room for `count` more scalars, all 0; *first becomes the number of the first. Between sim_open() and the first step, or by an
+ * effect's hook as the sim is opened. Error: STATUS_NO_MEMORY. */
+enum status sim_add_scalars(struct sim *sim, uint32_t count, uint32_t *first, struct error *err);
 
 /* Runs function on every part, each on its worker, and returns when all are done. */
 void sim_each_part(struct sim *sim,
