@@ -4,6 +4,7 @@
 #include "common/threads.h"
 #include "common/vec3.h"
 #include "sim/kernels.h"
+#include "sim/vectors.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -32,11 +33,14 @@ void sim_clear(struct sim *sim)
                       sim->balloons,
                       sim->settings,
                       sim->scalar,
-                      sim->scalar_rate};
+                      sim->scalar_rate,
+                      sim->block_sum};
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
         free(arrays[i]);
-    for (int i = 0; i < SIM_VECTORS_MAX; i++)
+    for (int i = 0; i < SIM_VECTORS_MAX; i++) {
         free(sim->scratch[i]);
+        free(sim->scalar_scratch[i]);
+    }
     for (int phase = 0; phase < EFFECT_PHASES; phase++)
         free(sim->hooks[phase]);
     *sim = (struct sim){0};
@@ -78,6 +82,7 @@ static enum status allocate(struct sim *sim, struct error *err)
     sim->settings = table(sim, sim->balloon_count, sizeof *sim->settings, &failed);
     for (int i = 0; i < sim->integrator->vectors; i++)
         sim->scratch[i] = table(sim, points, sizeof *sim->scratch[i], &failed);
+    sim->block_sum = table(sim, points / VECTOR_BLOCK + 1, sizeof *sim->block_sum, &failed);
     sim->rows.position = sim->position;
     sim->rows.velocity = sim->velocity;
     sim->rows.force = sim->force;
@@ -197,6 +202,30 @@ static enum status fill(struct sim *sim, const struct mesh *meshes, struct error
         status = fill_balloon(sim, b, &meshes[i], err);
     }
     return status;
+}
+
+/* An array of `count` numbers more than it has; the new ones are 0. */
+static bool lengthen(double **numbers, uint32_t count, uint32_t more)
+{
+    double *longer = realloc(*numbers, ((size_t)count + more) * sizeof *longer);
+    if (!longer)
+        return false;
+    memset(longer + count, 0, more * sizeof *longer);
+    *numbers = longer;
+    return true;
+}
+
+enum status sim_add_scalars(struct sim *sim, uint32_t count, uint32_t *first, struct error *err)
+{
+    bool room = lengthen(&sim->scalar, sim->scalar_count, count) &&
+                lengthen(&sim->scalar_rate, sim->scalar_count, count);
+    for (int i = 0; i < sim->integrator->vectors && room; i++)
+        room = lengthen(&sim->scalar_scratch[i], sim->scalar_count, count);
+    if (!room)
+        return error_no_memory(err, "the quantities that are integrated");
+    *first = sim->scalar_count;
+    sim->scalar_count += count;
+    return STATUS_OK;
 }
 
 static enum status build(struct sim *sim, const struct mesh *meshes, unsigned workers, struct error *err)
