@@ -2,32 +2,7 @@
 #include "common/array.h"
 #include "surface/mesher.h"
 
-#include <stdlib.h>
-#include <string.h>
-
-enum status mesher_init(struct mesher *m, const struct field *field, double threshold, double cube,
-                        struct error *err)
-{
-    memset(m, 0, sizeof *m);
-    m->field = field;
-    m->threshold = threshold;
-    cell_table_make(&m->cells);
-    if (grid_init(&m->grid, field, cube, err) || probe_init(&m->probe, field, err))
-        mesher_clear(m);
-    return m->field ? STATUS_OK : err->status;
-}
-
-void mesher_clear(struct mesher *m)
-{
-    free(m->bricks.items);
-    free(m->slots);
-    free(m->vertices.items);
-    free(m->stack.items);
-    free(m->scratch.items);
-    grid_clear(&m->grid);
-    probe_clear(&m->probe);
-    memset(m, 0, sizeof *m);
-}
+#include <math.h>
 
 /* 21 bits apart: bit i goes to bit 3 i. */
 static uint64_t spread(uint64_t bits)
@@ -46,68 +21,24 @@ uint64_t brick_code(const struct grid *grid, const int at[3])
     return spread(x) | spread(y) << 1 | spread((uint64_t)(at[2] - grid->brick_low[2])) << 2;
 }
 
-static size_t slot_of(const struct mesher *m, uint64_t code)
+/* Whether all corners are on one side of the threshold, since the field differs from that in the middle by at
+ * most its steepness times the half diagonal. */
+static bool is_one_sided(const struct mesher *m, struct worker *worker, const int at[3])
 {
-    return (code * 0x9e3779b97f4a7c15u >> 20) & (m->slot_count - 1);
-}
-
-uint32_t brick_find(const struct mesher *m, uint64_t code)
-{
-    if (!m->slot_count)
-        return MESH_NONE;
-    for (size_t slot = slot_of(m, code);; slot = (slot + 1) & (m->slot_count - 1)) {
-        if (!m->slots[slot])
-            return MESH_NONE;
-        if (m->bricks.items[m->slots[slot] - 1].code == code)
-            return m->slots[slot] - 1;
-    }
-}
-
-static void put_in_slot(struct mesher *m, uint32_t brick)
-{
-    size_t slot = slot_of(m, m->bricks.items[brick].code);
-    while (m->slots[slot])
-        slot = (slot + 1) & (m->slot_count - 1);
-    m->slots[slot] = brick + 1;
-}
-
-static int by_code(const void *a, const void *b)
-{
-    uint64_t p = ((const struct brick *)a)->code, q = ((const struct brick *)b)->code;
-    return (p > q) - (p < q);
-}
-
-void bricks_sort(struct mesher *m)
-{
-    qsort(m->bricks.items, m->bricks.count, sizeof *m->bricks.items, by_code);
-    memset(m->slots, 0, m->slot_count * sizeof *m->slots);
-    for (uint32_t i = 0; i < m->bricks.count; i++)
-        put_in_slot(m, i);
-}
-
-static bool make_room(struct mesher *m)
-{
-    if (!ARRAY_RESERVE(&m->bricks, 1))
+    double middle[3], gradient[3];
+    double most = 1.000001 * m->field->steepness * sqrt(3) * BRICK / 2 * m->grid.cube;
+    if (most >= m->threshold)
         return false;
-    if (2 * (m->bricks.count + 1) <= m->slot_count)
-        return true;
-    size_t count = m->slot_count ? 2 * m->slot_count : 64;
-    uint32_t *slots = calloc(count, sizeof *slots);
-    if (!slots)
-        return false;
-    free(m->slots);
-    m->slots = slots;
-    m->slot_count = count;
-    for (uint32_t i = 0; i < m->bricks.count; i++)
-        put_in_slot(m, i);
-    return true;
+    for (int axis = 0; axis < 3; axis++)
+        middle[axis] = grid_coordinate(&m->grid, at[axis] * BRICK + BRICK / 2);
+    worker->evaluations++;
+    return fabs(block_value(&worker->block, middle, gradient) - m->threshold) > most;
 }
 
-/* The signs of m->values; false when they are all the same. */
-static bool find_signs(const struct mesher *m, struct brick *brick)
+/* The signs of the values; false when they are all the same. */
+static bool find_signs(const struct mesher *m, const double *value, struct brick *brick)
 {
     unsigned all = 0x1ff, any = 0;
-    const double *value = m->values;
     for (int row = 0; row < BRICK_CORNERS * BRICK_CORNERS; row++) {
         unsigned bits = 0;
         for (int x = 0; x < BRICK_CORNERS; x++)
@@ -139,35 +70,77 @@ static void find_crossed_edges(struct brick *brick)
     brick->vertex_count = count;
 }
 
-static void report_progress(const struct mesher *m)
+/* Bit f: the field in the middle of ambiguous face f is inside. */
+static unsigned faces_joined(const struct mesher *m, struct worker *worker, const struct brick *brick,
+                             const int at[3], unsigned ambiguous)
 {
-    if (m->progress && m->bricks.count % 256 == 0)
-        m->progress(m->progress_context, (double)m->vertices.count / (double)(m->vertices_expected + 1));
+    unsigned joined = 0;
+    for (int face = 0; face < CELL_FACES; face++) {
+        if (!(ambiguous >> face & 1))
+            continue;
+        double middle[3], gradient[3];
+        for (int axis = 0; axis < 3; axis++) {
+            int line = brick->at[axis] * BRICK + at[axis];
+            bool across = axis == face / 2;
+            middle[axis] = across ? grid_coordinate(&m->grid, line + face % 2) : (line + 1) * m->grid.cube;
+        }
+        joined |= (unsigned)(probe_value(&worker->probe, middle, gradient) >= m->threshold) << face;
+    }
+    return joined;
 }
 
-uint32_t brick_get(struct mesher *m, const int at[3])
+const struct cell_loops *cell_loops_of(const struct mesher *m, struct worker *worker,
+                                       const struct brick *brick, const int at[3], unsigned inside,
+                                       struct cell_loops *own)
 {
-    uint64_t code = brick_code(&m->grid, at);
-    uint32_t found = brick_find(m, code);
-    if (found != MESH_NONE || m->failed)
-        return found;
-    struct brick brick = {.at = {at[0], at[1], at[2]}, .code = code};
-    int corner[3] = {at[0] * BRICK, at[1] * BRICK, at[2] * BRICK};
-    if (!grid_sample(&m->grid, corner, BRICK_CORNERS, &m->scratch, m->values) || !make_room(m)) {
-        m->failed = true;
-        return MESH_NONE;
+    unsigned ambiguous = m->cells.ambiguous[inside];
+    if (!ambiguous)
+        return &m->cells.loops[inside];
+    cell_find_loops(&m->cells, inside, faces_joined(m, worker, brick, at, ambiguous), own);
+    return own;
+}
+
+static void count_loops(const struct cell_table *table, const struct cell_loops *loops, struct brick *brick)
+{
+    for (int i = 0; i < loops->count; i++) {
+        bool fan = cell_needs_middle(table, loops->edge[i], loops->length[i]);
+        brick->triangle_count += fan ? loops->length[i] : loops->length[i] - 2u;
+        brick->middle_count += fan;
     }
-    m->samples += BRICK_CORNERS * BRICK_CORNERS * BRICK_CORNERS;
-    if (!find_signs(m, &brick))
-        return MESH_NONE;
+}
+
+static void count_triangles(const struct mesher *m, struct worker *worker, struct brick *brick)
+{
+    for (int row = 0; row < BRICK * BRICK; row++)
+        for (unsigned cells = cells_crossed(brick, row % BRICK, row / BRICK); cells; cells &= cells - 1) {
+            int at[3] = {__builtin_ctz(cells), row % BRICK, row / BRICK};
+            unsigned inside = cell_inside(brick, at[0], at[1], at[2]);
+            struct cell_loops own;
+            if (m->cells.ambiguous[inside])
+                count_loops(&m->cells, cell_loops_of(m, worker, brick, at, inside, &own), brick);
+            else
+                brick->triangle_count += m->cells.triangles[inside];
+        }
+}
+
+void brick_make(const struct mesher *m, struct worker *worker, const int at[3])
+{
+    struct brick brick = {.at = {at[0], at[1], at[2]}, .code = brick_code(&m->grid, at)};
+    int corner[3] = {at[0] * BRICK, at[1] * BRICK, at[2] * BRICK};
+    worker->failed |= worker->failed || !block_move(&worker->block, corner);
+    if (worker->failed || is_one_sided(m, worker, at))
+        return;
+    worker->failed |= !block_sample(&worker->block);
+    worker->samples += BLOCK_VALUES;
+    if (worker->failed || !find_signs(m, worker->block.values, &brick))
+        return;
     find_crossed_edges(&brick);
-    brick.vertex_first = m->vertices.count;
-    if (m->count_only)
-        m->vertices.count += brick.vertex_count;
-    else
-        brick_find_vertices(m, &brick);
-    m->bricks.items[m->bricks.count] = brick;
-    put_in_slot(m, (uint32_t)m->bricks.count);
-    report_progress(m);
-    return (uint32_t)m->bricks.count++;
+    count_triangles(m, worker, &brick);
+    if (!m->count_only)
+        brick_find_vertices(m, worker, &brick);
+    if (!ARRAY_RESERVE(&worker->bricks, 1)) {
+        worker->failed = true;
+        return;
+    }
+    worker->bricks.items[worker->bricks.count++] = brick;
 }

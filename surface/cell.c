@@ -69,7 +69,7 @@ void cell_find_loops(const struct cell_table *table, unsigned inside, unsigned j
             next[edge] = NONE;
             edge = following;
         }
-        loops->length[loop] = length;
+        loops->length[loop] = (uint8_t)length;
     }
 }
 
@@ -88,10 +88,10 @@ void cell_table_make(struct cell_table *table)
                 table->ambiguous[mask] |= (uint8_t)(1 << face);
         }
     for (unsigned mask = 0; mask < 256; mask++) {
-        struct cell_loops loops;
-        cell_find_loops(table, mask, 0, &loops);
-        for (int i = 0; i < loops.count; i++)
-            table->triangles[mask] += (uint8_t)(loops.length[i] - 2);
+        struct cell_loops *loops = &table->loops[mask];
+        cell_find_loops(table, mask, 0, loops);
+        for (int i = 0; i < loops->count; i++)
+            table->triangles[mask] += (uint8_t)(loops->length[i] - 2);
     }
 }
 
@@ -165,4 +165,17 @@ int cell_triangulate(const struct cell_table *table, const uint8_t *edges, int l
     if (plan.best[0][length - 1] >= allowed)
         return 0;
     return read_plan(&plan, 0, length - 1, triangles, 0);
+}
+
+bool cell_needs_middle(const struct cell_table *table, const uint8_t *edges, int length)
+{
+    double place[CELL_EDGES][3];
+    uint8_t triangles[CELL_EDGES][3];
+    if (length < 8)
+        return false;
+    /* Wherever the vertices are: no choice is worse than a forbidden one. */
+    for (int i = 0; i < length; i++)
+        for (int axis = 0; axis < 3; axis++)
+            place[i][axis] = axis == 0 ? i : axis == 1 ? i * i : 0;
+    return cell_triangulate(table, edges, length, place, triangles) == 0;
 }

@@ -27,25 +27,26 @@
 
 enum { CELL_EDGES = 12, CELL_FACES = 6, CELL_LOOPS = 4 };
 
+struct cell_loops {
+    uint8_t count;
+    uint8_t length[CELL_LOOPS];
+    uint8_t edge[CELL_LOOPS][CELL_EDGES];
+};
+
 /* Corners and edges of each face in counter-clockwise order from outside the cell: edge[f][i] runs from
  * corner i to corner i + 1. */
 struct cell_table {
     uint8_t corner[CELL_FACES][4];
     uint8_t edge[CELL_FACES][4];
-    uint8_t faces[CELL_EDGES];   /* bit f: the edge borders on face f */
-    uint8_t ends[CELL_EDGES][2]; /* its corners, the lower first */
-    uint8_t crossed[256];        /* by mask of inside corners: bit f, the surface passes through face f */
-    uint8_t ambiguous[256];      /* bit f: all four edges of face f are crossed */
-    uint8_t triangles[256];      /* how many there are, where no face is ambiguous */
+    uint8_t faces[CELL_EDGES];    /* bit f: the edge borders on face f */
+    uint8_t ends[CELL_EDGES][2];  /* its corners, the lower first */
+    uint8_t crossed[256];         /* by mask of inside corners: bit f, the surface passes through face f */
+    uint8_t ambiguous[256];       /* bit f: all four edges of face f are crossed */
+    struct cell_loops loops[256]; /* where no ambiguous face is joined */
+    uint8_t triangles[256];       /* how many those make */
 };
 
 void cell_table_make(struct cell_table *table);
-
-struct cell_loops {
-    int count;
-    int length[CELL_LOOPS];
-    uint8_t edge[CELL_LOOPS][CELL_EDGES];
-};
 
 /* The loops of a cell with these corners inside (bit c), counter-clockwise seen from outside the object.
  * `joined`: bit f says that the inside corners of the ambiguous face f belong together. */
@@ -57,5 +58,8 @@ void cell_find_loops(const struct cell_table *table, unsigned inside, unsigned j
  * when the loop needs a vertex in its middle (see above). */
 int cell_triangulate(const struct cell_table *table, const uint8_t *edges, int length,
                      const double place[][3], uint8_t triangles[][3]);
+
+/* Whether cell_triangulate() would return 0. */
+bool cell_needs_middle(const struct cell_table *table, const uint8_t *edges, int length);
 
 #endif

@@ -43,6 +43,13 @@ static void set_lattices(struct field *field, const struct field_settings *setti
     double spacing = area ? field->side / sqrt(settings->fields_per_area) : 1;
     field->lattice[TRACK_AREA] = (struct field_lattice){area, spacing, 0.5, spacing * normal};
     field->lattice[TRACK_PLANE] = (struct field_lattice){area, 1, 0, 1};
+    if (volume->used)
+        field->layer[field->layers++] = (struct field_layer){{TRACK_VOLUME, TRACK_VOLUME, TRACK_VOLUME}};
+    for (int axis = 0; axis < 3 && area; axis++) {
+        struct field_layer *layer = &field->layer[field->layers++];
+        *layer = (struct field_layer){{TRACK_AREA, TRACK_AREA, TRACK_AREA}};
+        layer->track[axis] = TRACK_PLANE;
+    }
 }
 
 /* The largest sum over a lattice of its Gaussians. The sum over all integers of exp(-k^2 c) is largest on a
@@ -105,6 +112,7 @@ enum status field_init(struct field *field, const struct octree *tree, const str
         field->coefficient[k] = (double)tree->coefficient[k];
     set_lattices(field, settings);
     field->steepness = largest_steepness(field);
+    distribution_fill(&field->distribution, field->cutoff);
     field->profile_room = (int)fmin(field->side + 2, ceil(2 * field->reach) + 5);
     return STATUS_OK;
 }
@@ -113,13 +121,14 @@ enum status field_init(struct field *field, const struct octree *tree, const str
 static void fill_continuum(const struct field *field, double x, struct profile *profile)
 {
     double *sum = profile->sum[TRACK_VOLUME], *slope = profile->slope[TRACK_VOLUME];
-    double mass = erf(field->cutoff / M_SQRT2);
-    for (int plane = profile->first; plane <= profile->last; plane++) {
-        double t = plane - x, u = t / field->sigma;
-        bool within = fabs(t) < field->reach;
-        *sum++ = within ? 0.5 * erf(u / M_SQRT2) / mass : copysign(0.5, t);
-        if (slope)
-            *slope++ = within ? -exp(-u * u / 2) / (field->sigma * SQRT_2PI * mass) : 0;
+    for (int plane = profile->first; plane <= profile->last; plane++, sum++, slope++) {
+        double t = plane - x;
+        *sum = copysign(0.5, t);
+        *slope = 0;
+        if (fabs(t) >= field->reach)
+            continue;
+        *sum = distribution_value(&field->distribution, t / field->sigma, slope);
+        *slope /= -field->sigma;
     }
 }
 
@@ -142,8 +151,7 @@ static void fill_lattice(const struct field *field, double x, const struct field
             total_slope += scale * bell * u / field->sigma;
         }
         *sum++ = total;
-        if (slope)
-            *slope++ = total_slope;
+        *slope++ = total_slope;
     }
 }
 
@@ -166,96 +174,32 @@ void profile_fill(const struct field *field, double x, struct profile *profile)
     }
 }
 
-enum status probe_init(struct probe *probe, const struct field *field, struct error *err)
+void field_reach(const struct field *field, const double low[3], const double high[3], int cell_low[3],
+                 int cell_high[3])
 {
-    *probe = (struct probe){.field = field};
+    /* A face may belong to the cell below it. */
+    int below = field->lattice[TRACK_AREA].used;
+    for (int axis = 0; axis < 3; axis++) {
+        cell_low[axis] = (int)fmin(fmax(floor(low[axis] - field->reach) - below, 0), field->side);
+        cell_high[axis] = (int)fmax(fmin(floor(high[axis] + field->reach), field->side - 1), -1);
+    }
+}
+
+bool profiles_init(struct profiles *profiles, const struct field *field)
+{
     size_t room = (size_t)field->profile_room;
-    probe->storage = array_new(room * 3 * FIELD_TRACKS * 2, sizeof *probe->storage);
-    if (!probe->storage)
-        return error_no_memory(err, "the field");
-    double *next = probe->storage;
-    for (int axis = 0; axis < 3; axis++)
+    double *next = profiles->storage = array_new(room * 3 * FIELD_TRACKS * 2, sizeof *next);
+    for (int axis = 0; next && axis < 3; axis++)
         for (int track = 0; track < FIELD_TRACKS; track++) {
-            probe->axis[axis].sum[track] = next;
-            probe->axis[axis].slope[track] = next + room;
+            profiles->axis[axis].sum[track] = next;
+            profiles->axis[axis].slope[track] = next + room;
             next += 2 * room;
         }
-    return STATUS_OK;
+    return next;
 }
 
-void probe_clear(struct probe *probe)
+void profiles_clear(struct profiles *profiles)
 {
-    for (int k = 0; k < FIELD_WINDOWS; k++)
-        free(probe->window[k].near.items);
-    free(probe->storage);
-    *probe = (struct probe){0};
-}
-
-/* The fields that reach some point of this cell; kept for the next points in it. */
-static const struct field_items *near_cell(struct probe *probe, const int cell[3])
-{
-    int slot = (cell[0] & 3) | (cell[1] & 3) << 2 | (cell[2] & 3) << 4;
-    const int *kept = probe->window[slot].cell;
-    struct field_items *near = &probe->window[slot].near;
-    if (probe->window[slot].valid && kept[0] == cell[0] && kept[1] == cell[1] && kept[2] == cell[2])
-        return near;
-    double low[3], high[3];
-    int cell_low[3], cell_high[3];
-    for (int axis = 0; axis < 3; axis++) {
-        probe->window[slot].cell[axis] = cell[axis];
-        low[axis] = cell[axis];
-        high[axis] = cell[axis] + 1;
-    }
-    field_reach(probe->field, low, high, cell_low, cell_high);
-    near->count = 0;
-    probe->window[slot].valid = field_gather(probe->field, cell_low, cell_high, near);
-    if (!probe->window[slot].valid) {
-        probe->failed = true;
-        near->count = 0;
-    }
-    return near;
-}
-
-/* An item's one-dimensional sum along an axis and its slope. */
-static double item_sum(const struct profile *p, const struct field_item *item, int axis, double *slope)
-{
-    int low = profile_index(p->first, p->last, item->low[axis]), track = item->track[axis];
-    int high = profile_index(p->first, p->last, item->high[axis]);
-    *slope = p->slope[track][high] - p->slope[track][low];
-    return p->sum[track][high] - p->sum[track][low];
-}
-
-static double add_up(const struct profile axis[3], const struct field_items *near, double gradient[3])
-{
-    double value = 0;
-    for (size_t i = 0; i < near->count; i++) {
-        const struct field_item *item = &near->items[i];
-        double sum[3], slope[3];
-        if ((sum[0] = item_sum(&axis[0], item, 0, &slope[0])) == 0 ||
-            (sum[1] = item_sum(&axis[1], item, 1, &slope[1])) == 0 ||
-            (sum[2] = item_sum(&axis[2], item, 2, &slope[2])) == 0)
-            continue;
-        double zy = item->weight * sum[2] * sum[1];
-        value += zy * sum[0];
-        gradient[0] += zy * slope[0];
-        gradient[1] += item->weight * sum[2] * slope[1] * sum[0];
-        gradient[2] += item->weight * slope[2] * sum[1] * sum[0];
-    }
-    return value;
-}
-
-double probe_value(struct probe *probe, const double point[3], double gradient[3])
-{
-    int cell[3];
-    probe->evaluations++;
-    gradient[0] = gradient[1] = gradient[2] = 0;
-    for (int axis = 0; axis < 3; axis++) {
-        double reach = probe->field->reach;
-        if (!(point[axis] > -reach && point[axis] < probe->field->side + reach))
-            return 0;
-        cell[axis] = (int)floor(point[axis]);
-        profile_fill(probe->field, point[axis], &probe->axis[axis]);
-    }
-    const struct field_items *near = near_cell(probe, cell);
-    return add_up(probe->axis, near, gradient);
+    free(profiles->storage);
+    *profiles = (struct profiles){0};
 }

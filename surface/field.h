@@ -4,11 +4,9 @@
  *
  *     struct field field;
  *     if (field_init(&field, &tree, &settings, err)) ...
- *     struct probe probe;
- *     if (probe_init(&probe, &field, err)) ...          one for each thread: it keeps what it found near by
- *     value = probe_value(&probe, point, gradient);
- *     if (probe.failed) ...                             memory ran out in one of the calls so far
- *     probe_clear(&probe);
+ *
+ * Values at single points are found with a probe (surface/probe.h), on a regular grid by blocks
+ * (surface/block.h).
  *
  * Unit of length, unless said otherwise: the side of the octree's finest cell, with the sculpture at
  * 0 .. 2^depth on each axis. A bigger leaf is only a short way to write many cells.
@@ -34,20 +32,22 @@
  * the b_k, 0 among them: the mass of the Gaussian outside the cube of half side R s (1.7e-6 at R = 5, 5.9e-9
  * at R = 6).
  *
- * The value at a point is a pure function of the point: sums run in the octree's Morton order, and what is
- * out of reach adds exactly 0, so any two ways to gather the leaves give the same bits.
+ * The value at a point is a pure function of the point: sums run along x, then y, then z, within a row in the
+ * octree's Morton order, and what is out of reach adds exactly 0. So any two ways to gather the leaves give the
+ * same bits.
  */
 #ifndef SURFACE_FIELD_H
 #define SURFACE_FIELD_H
 
 #include "common/octree.h"
 #include "common/status.h"
+#include "surface/distribution.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
-enum { FIELDS_EXACT = -1, FIELDS_SIDE_MAX = 16, FIELD_WINDOWS = 64 };
+enum { FIELDS_EXACT = -1, FIELDS_SIDE_MAX = 16 };
 
 struct field_settings {
     long fields_per_cube;   /* FIELDS_EXACT, 0, or n^3 with n from 1 to FIELDS_SIDE_MAX */
@@ -70,14 +70,24 @@ struct field_lattice {
     double weight;          /* of each point; for the continuum the sum is normalised to 1 */
 };
 
+/* Boxes of fields are sums over these lattices along x, y and z. */
+struct field_layer {
+    enum field_track track[3];
+};
+
+enum { FIELD_LAYERS = 4 }; /* the volume's, and those of the faces across x, y and z */
+
 struct field {
     const struct octree *tree;   /* borrowed */
     int side;                    /* cells along an axis */
     double sigma, cutoff, reach; /* reach = cutoff * sigma */
     struct field_lattice lattice[FIELD_TRACKS];
+    struct field_layer layer[FIELD_LAYERS];
+    int layers; /* in use */
     double coefficient[OCTREE_MATERIALS];
-    double steepness; /* no gradient is longer */
-    int profile_room; /* planes that a profile may have */
+    double steepness;                 /* no gradient is longer */
+    int profile_room;                 /* planes that a profile may have */
+    struct distribution distribution; /* of the continuum */
 };
 
 /* Errors: STATUS_RANGE, naming the setting and what would be right. */
@@ -88,7 +98,7 @@ enum status field_init(struct field *field, const struct octree *tree, const str
  * i, for first <= i <= last; below and above it is constant. slope is its derivative by x. */
 struct profile {
     int first, last;
-    double *sum[FIELD_TRACKS], *slope[FIELD_TRACKS]; /* [field.profile_room]; slope NULL: not wanted */
+    double *sum[FIELD_TRACKS], *slope[FIELD_TRACKS]; /* [field.profile_room] */
 };
 
 void profile_fill(const struct field *field, double x, struct profile *profile);
@@ -98,44 +108,18 @@ static inline int profile_index(int first, int last, int plane)
     return (plane < first ? first : plane > last ? last : plane) - first;
 }
 
-/* A box of fields: along axis a those of lattice track[a] from plane low[a] to plane high[a]. */
-struct field_item {
-    int16_t low[3], high[3];
-    uint8_t track[3];
-    double weight;
+/* The profiles of a point. */
+struct profiles {
+    struct profile axis[3];
+    double *storage;
 };
 
-struct field_items {
-    struct field_item *items;
-    size_t count, capacity;
-};
-
-/* All boxes of fields that have a part in the cells low .. high (both included), in Morton order of their
- * leaves. False when there is no memory. */
-bool field_gather(const struct field *field, const int low[3], const int high[3], struct field_items *out);
+/* False when there is no memory. */
+bool profiles_init(struct profiles *profiles, const struct field *field);
+void profiles_clear(struct profiles *profiles);
 
 /* The box of cells whose fields reach a point of low .. high. */
 void field_reach(const struct field *field, const double low[3], const double high[3], int cell_low[3],
                  int cell_high[3]);
-
-/* What one thread needs to evaluate the field: scratch, and the boxes of fields around the last few cells. */
-struct probe {
-    const struct field *field; /* borrowed */
-    struct {
-        bool valid;
-        int cell[3];
-        struct field_items near;
-    } window[FIELD_WINDOWS];
-    struct profile axis[3];
-    double *storage;
-    bool failed;          /* memory ran out: values since then are 0 */
-    uint64_t evaluations; /* so far */
-};
-
-enum status probe_init(struct probe *probe, const struct field *field, struct error *err);
-void probe_clear(struct probe *probe);
-
-/* The field at a point, and its gradient. */
-double probe_value(struct probe *probe, const double point[3], double gradient[3]);
 
 #endif

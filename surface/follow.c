@@ -2,44 +2,6 @@
 #include "common/array.h"
 #include "surface/mesher.h"
 
-unsigned cell_inside(const struct brick *brick, int x, int y, int z)
-{
-    const uint16_t *row = &brick->inside[z * BRICK_CORNERS + y];
-    return (row[0] >> x & 3u) | (row[1] >> x & 3u) << 2 | (row[BRICK_CORNERS] >> x & 3u) << 4 |
-           (row[BRICK_CORNERS + 1] >> x & 3u) << 6;
-}
-
-unsigned faces_joined(struct mesher *m, const struct brick *brick, const int at[3], unsigned ambiguous)
-{
-    unsigned joined = 0;
-    for (int face = 0; face < CELL_FACES; face++) {
-        if (!(ambiguous >> face & 1))
-            continue;
-        double middle[3], gradient[3];
-        for (int axis = 0; axis < 3; axis++) {
-            int line = brick->at[axis] * BRICK + at[axis];
-            bool across = axis == face / 2;
-            middle[axis] = across ? grid_coordinate(&m->grid, line + face % 2) : (line + 1) * m->grid.cube;
-        }
-        joined |= (unsigned)(probe_value(&m->probe, middle, gradient) >= m->threshold) << face;
-    }
-    return joined;
-}
-
-/* How many triangles a cell has; the few loops that need a vertex in their middle have two more. */
-static int count_triangles(struct mesher *m, const struct brick *brick, int cell, unsigned inside)
-{
-    unsigned ambiguous = m->cells.ambiguous[inside];
-    if (!ambiguous)
-        return m->cells.triangles[inside];
-    int at[3] = {cell % BRICK, cell / BRICK % BRICK, cell / 64}, count = 0;
-    struct cell_loops loops;
-    cell_find_loops(&m->cells, inside, faces_joined(m, brick, at, ambiguous), &loops);
-    for (int i = 0; i < loops.count; i++)
-        count += loops.length[i] - 2;
-    return count;
-}
-
 /* Marks a cell and puts it on the stack, once. */
 static void reach(struct mesher *m, uint32_t brick, int cell)
 {
@@ -79,8 +41,6 @@ void follow(struct mesher *m, uint32_t brick, int cell)
         struct cell_at here = m->stack.items[--m->stack.count];
         unsigned inside = cell_inside(&m->bricks.items[here.brick], here.cell % BRICK,
                                       here.cell / BRICK % BRICK, here.cell / 64);
-        if (m->count_only)
-            m->triangles += (size_t)count_triangles(m, &m->bricks.items[here.brick], here.cell, inside);
         for (int face = 0; face < CELL_FACES; face++)
             if (m->cells.crossed[inside] >> face & 1)
                 cross_face(m, here.brick, here.cell, face);
@@ -89,10 +49,12 @@ void follow(struct mesher *m, uint32_t brick, int cell)
 
 void follow_brick(struct mesher *m, uint32_t brick)
 {
-    for (int cell = 0; cell < BRICK * BRICK * BRICK && !m->failed; cell++) {
-        const struct brick *b = &m->bricks.items[brick];
-        unsigned inside = cell_inside(b, cell % BRICK, cell / BRICK % BRICK, cell / 64);
-        if (inside != 0 && inside != 255 && !(b->followed[cell / 64] >> cell % 64 & 1))
-            follow(m, brick, cell);
+    for (int row = 0; row < BRICK * BRICK && !m->failed; row++) {
+        unsigned cells = cells_crossed(&m->bricks.items[brick], row % BRICK, row / BRICK);
+        for (; cells; cells &= cells - 1) {
+            int cell = BRICK * row + __builtin_ctz(cells);
+            if (!(m->bricks.items[brick].followed[cell / 64] >> cell % 64 & 1))
+                follow(m, brick, cell);
+        }
     }
 }

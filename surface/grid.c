@@ -33,13 +33,12 @@ static bool tabulate(struct grid *grid)
     for (int track = 0; track < FIELD_TRACKS; track++)
         if (grid->field->lattice[track].used) {
             grid->sum[track] = array_new(count, room * sizeof *grid->sum[track]);
-            if (!grid->sum[track])
+            grid->slope[track] = array_new(count, room * sizeof *grid->slope[track]);
+            if (!grid->sum[track] || !grid->slope[track])
                 return false;
         }
     for (size_t line = 0; line < count; line++) {
-        struct profile profile = {0};
-        for (int track = 0; track < FIELD_TRACKS; track++)
-            profile.sum[track] = grid->sum[track] ? grid->sum[track] + line * room : NULL;
+        struct profile profile = grid_profile(grid, grid->line_first + (int)line);
         profile_fill(grid->field, grid_coordinate(grid, grid->line_first + (int)line), &profile);
         grid->first[line] = profile.first;
         grid->last[line] = profile.last;
@@ -73,69 +72,9 @@ void grid_clear(struct grid *grid)
 {
     free(grid->first);
     free(grid->last);
-    for (int track = 0; track < FIELD_TRACKS; track++)
+    for (int track = 0; track < FIELD_TRACKS; track++) {
         free(grid->sum[track]);
+        free(grid->slope[track]);
+    }
     *grid = (struct grid){0};
-}
-
-/* An item's one-dimensional sums at `count` lines from `corner` on, and which of them are not 0. */
-struct factors {
-    double value[BRICK_CORNERS];
-    int begin, end;
-};
-
-static void find_factors(const struct grid *grid, const struct field_item *item, int axis, int corner,
-                         int count, struct factors *out)
-{
-    size_t room = (size_t)grid->field->profile_room, line = (size_t)(corner - grid->line_first);
-    const double *sum = grid->sum[item->track[axis]] + line * room;
-    out->begin = count;
-    out->end = 0;
-    for (int i = 0; i < count; i++, line++, sum += room) {
-        int first = grid->first[line], last = grid->last[line];
-        out->value[i] = sum[profile_index(first, last, item->high[axis])] -
-                        sum[profile_index(first, last, item->low[axis])];
-        if (out->value[i] == 0)
-            continue;
-        out->begin = i < out->begin ? i : out->begin;
-        out->end = i + 1;
-    }
-}
-
-static void add_item(const struct factors factors[3], double weight, int count, double *values)
-{
-    for (int z = factors[2].begin; z < factors[2].end; z++)
-        for (int y = factors[1].begin; y < factors[1].end; y++) {
-            double scale = weight * factors[2].value[z] * factors[1].value[y];
-            double *row = values + (z * count + y) * count;
-            for (int x = factors[0].begin; x < factors[0].end; x++)
-                row[x] += scale * factors[0].value[x];
-        }
-}
-
-bool grid_sample(const struct grid *grid, const int corner[3], int count, struct field_items *scratch,
-                 double *values)
-{
-    double low[3], high[3];
-    int cell_low[3], cell_high[3];
-    for (int axis = 0; axis < 3; axis++) {
-        low[axis] = grid_coordinate(grid, corner[axis]);
-        high[axis] = grid_coordinate(grid, corner[axis] + count - 1);
-    }
-    memset(values, 0, (size_t)(count * count * count) * sizeof *values);
-    field_reach(grid->field, low, high, cell_low, cell_high);
-    scratch->count = 0;
-    if (!field_gather(grid->field, cell_low, cell_high, scratch))
-        return false;
-    for (size_t i = 0; i < scratch->count; i++) {
-        struct factors factors[3];
-        bool reaches = true;
-        for (int axis = 0; axis < 3 && reaches; axis++) {
-            find_factors(grid, &scratch->items[i], axis, corner[axis], count, &factors[axis]);
-            reaches = factors[axis].begin < factors[axis].end;
-        }
-        if (reaches)
-            add_item(factors, scratch->items[i].weight, count, values);
-    }
-    return true;
 }

@@ -3,7 +3,7 @@
  *
  *     struct grid grid;
  *     if (grid_init(&grid, &field, cube_size, err)) ...
- *     grid_sample(&grid, first_corner, 9, &scratch, values)
+ *     x = grid_coordinate(&grid, line);                 values at corners: surface/block.h
  *     grid_clear(&grid);
  *
  * Corner (i, j, k) lies at ((i + 1/2) h, (j + 1/2) h, (k + 1/2) h), h the cube size, so that the faces of
@@ -27,8 +27,8 @@ struct grid {
     double cube;                     /* h in cells of the octree */
     int brick_low[3], brick_high[3]; /* bricks with some corner that the field reaches, both included */
     int line_first, line_count;
-    int *first, *last;         /* [line_count] as in struct profile */
-    double *sum[FIELD_TRACKS]; /* [line_count][field.profile_room] */
+    int *first, *last;                               /* [line_count] as in struct profile */
+    double *sum[FIELD_TRACKS], *slope[FIELD_TRACKS]; /* [line_count][field.profile_room] */
 };
 
 /* cube: the cube size in the octree's cells. Errors: STATUS_RANGE when there would be too many lines,
@@ -42,10 +42,17 @@ static inline double grid_coordinate(const struct grid *grid, int line)
     return (line + 0.5) * grid->cube;
 }
 
-/* The field at count^3 corners (count at most BRICK_CORNERS) from `corner` on, x fastest. The same corner
- * gets the same bits whichever block it is sampled in. False when there is no memory for `scratch`, which
- * is kept from call to call and freed by the caller. */
-bool grid_sample(const struct grid *grid, const int corner[3], int count, struct field_items *scratch,
-                 double *values);
+/* The profile at a line; its sums belong to the grid. */
+static inline struct profile grid_profile(const struct grid *grid, int line)
+{
+    size_t index = (size_t)(line - grid->line_first), room = (size_t)grid->field->profile_room;
+    struct profile profile = {.first = grid->first[index], .last = grid->last[index]};
+    for (int track = 0; track < FIELD_TRACKS; track++)
+        if (grid->sum[track]) {
+            profile.sum[track] = grid->sum[track] + index * room;
+            profile.slope[track] = grid->slope[track] + index * room;
+        }
+    return profile;
+}
 
 #endif

@@ -1,6 +1,7 @@
 #include "surface/largest.h"
 
 #include "common/vec3.h"
+#include "surface/probe.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,10 +1,13 @@
 /* Where the following begins: by descent, and by the paper's random points. */
+#include "common/array.h"
 #include "common/random.h"
 #include "common/vec3.h"
 #include "surface/mesher.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 
 /*
  * Proofs that a brick can be left out. Where it is small against sigma, the field's steepness serves (see
@@ -93,6 +96,11 @@ static struct bounds find_bounds(const struct mesher *m)
     return longest;
 }
 
+/* Bricks, low and high included. */
+struct box {
+    int low[3], high[3];
+};
+
 struct survey {
     const int *low, *high;
     int material; /* of all leaves met so far; 0 when none */
@@ -149,7 +157,8 @@ static bool in_one_material(const struct mesher *m, const struct bounds *bounds,
 }
 
 /* The field differs from that in the middle of a box by at most its steepness times the half diagonal. */
-static bool far_from_threshold(struct mesher *m, const double low[3], const double high[3])
+static bool far_from_threshold(const struct mesher *m, struct worker *worker, const double low[3],
+                               const double high[3])
 {
     double middle[3], half[3], gradient[3];
     for (int axis = 0; axis < 3; axis++) {
@@ -157,56 +166,121 @@ static bool far_from_threshold(struct mesher *m, const double low[3], const doub
         middle[axis] = low[axis] + half[axis];
     }
     double most = 1.000001 * m->field->steepness * vec3_length(half);
-    return most < m->threshold && fabs(probe_value(&m->probe, middle, gradient) - m->threshold) > most;
+    return most < m->threshold && fabs(probe_value(&worker->probe, middle, gradient) - m->threshold) > most;
 }
 
-/* Whether all corners of the bricks low .. high are proven to be on one side. */
-static bool left_out(struct mesher *m, const struct bounds *bounds, const int low[3], const int high[3])
+/* Whether all corners of the bricks low .. high are proven to be on one side. A single brick's middle is looked
+ * at when it is made, which gathers the fields around it anyway. */
+static bool left_out(const struct mesher *m, struct worker *worker, const struct bounds *bounds,
+                     const struct box *box)
 {
     double start[3], end[3];
+    bool single = true;
     for (int axis = 0; axis < 3; axis++) {
-        start[axis] = grid_coordinate(&m->grid, low[axis] * BRICK);
-        end[axis] = grid_coordinate(&m->grid, (high[axis] + 1) * BRICK);
+        single &= box->low[axis] == box->high[axis];
+        start[axis] = grid_coordinate(&m->grid, box->low[axis] * BRICK);
+        end[axis] = grid_coordinate(&m->grid, (box->high[axis] + 1) * BRICK);
     }
-    return in_one_material(m, bounds, start, end) || far_from_threshold(m, start, end);
+    return in_one_material(m, bounds, start, end) || (!single && far_from_threshold(m, worker, start, end));
 }
 
-/* Looks at the bricks low .. high, by halves along the longest axis. */
-static void descend(struct mesher *m, const struct bounds *bounds, const int low[3], const int high[3])
+/* Halves a box across its longest axis. */
+static void halve(const struct box *box, struct box half[2])
 {
-    if (m->failed || left_out(m, bounds, low, high))
-        return;
     int axis = 0;
     for (int k = 1; k < 3; k++)
-        if (high[k] - low[k] > high[axis] - low[axis])
+        if (box->high[k] - box->low[k] > box->high[axis] - box->low[axis])
             axis = k;
-    if (low[axis] == high[axis]) {
-        uint32_t brick = brick_get(m, low);
-        if (brick != MESH_NONE)
-            follow_brick(m, brick);
+    half[0] = half[1] = *box;
+    half[0].high[axis] = box->low[axis] + (box->high[axis] - box->low[axis]) / 2;
+    half[1].low[axis] = half[0].high[axis] + 1;
+}
+
+static bool is_longer_than(const struct box *box, int bricks)
+{
+    for (int axis = 0; axis < 3; axis++)
+        if (box->high[axis] - box->low[axis] >= bricks)
+            return true;
+    return false;
+}
+
+/* Makes the bricks of a box that are not left out and not known yet. */
+static void descend(const struct mesher *m, struct worker *worker, const struct bounds *bounds,
+                    const struct box *box)
+{
+    if (worker->failed || left_out(m, worker, bounds, box))
+        return;
+    if (is_longer_than(box, 1)) {
+        struct box half[2];
+        halve(box, half);
+        descend(m, worker, bounds, &half[0]);
+        descend(m, worker, bounds, &half[1]);
+    } else if (brick_find(m, brick_code(&m->grid, box->low)) == MESH_NONE) {
+        brick_make(m, worker, box->low);
+    }
+}
+
+/* What the workers share while they descend. */
+struct descent {
+    struct mesher *m;
+    struct bounds bounds;
+    struct {
+        struct box *items;
+        size_t count, capacity;
+    } boxes; /* small ones, each a job */
+    atomic_size_t done;
+};
+
+/* Cuts a box into jobs; what can be left out is. */
+static void plan(struct descent *d, const struct box *box)
+{
+    enum { JOB = 4 }; /* bricks along an axis: some milliseconds of work, so that workers end together */
+    struct mesher *m = d->m;
+    if (m->failed || left_out(m, m->worker[0], &d->bounds, box))
+        return;
+    if (is_longer_than(box, JOB)) {
+        struct box half[2];
+        halve(box, half);
+        plan(d, &half[0]);
+        plan(d, &half[1]);
         return;
     }
-    int middle = low[axis] + (high[axis] - low[axis]) / 2;
-    int first_high[3] = {high[0], high[1], high[2]}, second_low[3] = {low[0], low[1], low[2]};
-    first_high[axis] = middle;
-    second_low[axis] = middle + 1;
-    descend(m, bounds, low, first_high);
-    descend(m, bounds, second_low, high);
+    if (ARRAY_RESERVE(&d->boxes, 1))
+        d->boxes.items[d->boxes.count++] = *box;
+    else
+        m->failed = true;
+}
+
+static void do_job(void *context, size_t index, unsigned number)
+{
+    struct descent *d = context;
+    descend(d->m, d->m->worker[number], &d->bounds, &d->boxes.items[index]);
+    size_t done = atomic_fetch_add_explicit(&d->done, 1, memory_order_relaxed) + 1;
+    if (number == 0 && d->m->progress)
+        d->m->progress(d->m->progress_context, (double)done / (double)d->boxes.count);
 }
 
 void seeds_descent(struct mesher *m)
 {
-    struct bounds bounds = find_bounds(m);
-    descend(m, &bounds, m->grid.brick_low, m->grid.brick_high);
+    struct descent d = {.m = m, .bounds = find_bounds(m)};
+    struct box all;
+    memcpy(all.low, m->grid.brick_low, sizeof all.low);
+    memcpy(all.high, m->grid.brick_high, sizeof all.high);
+    plan(&d, &all);
+    if (!m->failed)
+        threads_run(m->pool, d.boxes.count, do_job, &d);
+    free(d.boxes.items);
+    bricks_join(m);
+    for (uint32_t i = 0; i < m->bricks.count && !m->count_only; i++)
+        follow_brick(m, i);
 }
 
 static bool corner_inside(struct mesher *m, const int corner[3])
 {
-    double value = 0;
-    m->samples++;
-    if (!grid_sample(&m->grid, corner, 1, &m->scratch, &value))
-        m->failed = true;
-    return value >= m->threshold;
+    double point[3], gradient[3];
+    for (int axis = 0; axis < 3; axis++)
+        point[axis] = grid_coordinate(&m->grid, corner[axis]);
+    return probe_value(&m->worker[0]->probe, point, gradient) >= m->threshold;
 }
 
 /* The corner after `steps` steps from a to b: first along x, then y, then z. */

@@ -4,7 +4,6 @@
 #include "surface/mesher.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <unistd.h>
 
 struct surface_options surface_defaults(void)
@@ -18,6 +17,7 @@ struct making {
     const struct surface_options *options;
     struct octree_info info;
     struct field field;
+    struct threads *pool;
     struct surface_stats *stats;
 };
 
@@ -50,15 +50,25 @@ static enum status check_memory(const struct making *making, double cube, struct
                      cube / making->field.side * sqrt(points / most));
 }
 
+static void add_stats(const struct mesher *m, struct surface_stats *stats)
+{
+    for (unsigned i = 0; i < threads_workers(m->pool); i++) {
+        const struct worker *worker = m->worker[i];
+        stats->samples += worker->samples;
+        stats->evaluations += worker->evaluations + worker->probe.evaluations;
+        stats->worst_residual = fmax(stats->worst_residual, worker->worst_residual);
+    }
+}
+
 /* Finds the surface at a cube size given in cells; m is to be cleared when STATUS_OK. */
 static enum status find(const struct making *making, double cube, bool count_only, struct mesher *m,
                         struct error *err)
 {
     const struct surface_options *options = making->options;
-    if (check_memory(making, cube, err) || mesher_init(m, &making->field, options->threshold, cube, err))
+    if (check_memory(making, cube, err) ||
+        mesher_init(m, &making->field, options->threshold, cube, making->pool, err))
         return err->status;
     m->count_only = count_only;
-    m->vertices_expected = (size_t)expected_points(making, cube);
     m->progress = count_only ? NULL : options->progress;
     m->progress_context = options->progress_context;
     making->stats->seeds_random = 0;
@@ -68,8 +78,7 @@ static enum status find(const struct making *making, double cube, bool count_onl
     }
     seeds_descent(m);
     making->stats->seeds = m->follows;
-    making->stats->samples += m->samples;
-    if (!m->failed && !m->probe.failed)
+    if (!mesher_failed(m))
         return STATUS_OK;
     mesher_clear(m);
     return error_no_memory(err, "the surface");
@@ -77,16 +86,13 @@ static enum status find(const struct making *making, double cube, bool count_onl
 
 static enum status count_triangles(const struct making *making, double cube, size_t *count, struct error *err)
 {
-    struct mesher *m = malloc(sizeof *m);
-    if (!m)
-        return error_no_memory(err, "the surface");
-    enum status status = find(making, cube, true, m, err);
-    if (status == STATUS_OK) {
-        *count = m->triangles;
-        mesher_clear(m);
-    }
-    free(m);
-    return status;
+    struct mesher m;
+    if (find(making, cube, true, &m, err))
+        return err->status;
+    *count = m.triangle_count;
+    add_stats(&m, making->stats);
+    mesher_clear(&m);
+    return STATUS_OK;
 }
 
 static double default_cube(const struct making *making)
@@ -153,24 +159,13 @@ static enum status explain_nothing(const struct making *making, double cube, str
 
 static enum status make_at(const struct making *making, double cube, struct mesh *mesh, struct error *err)
 {
-    struct mesher *m = malloc(sizeof *m);
-    if (!m)
-        return error_no_memory(err, "the surface");
-    enum status status = find(making, cube, false, m, err);
-    if (status == STATUS_OK) {
-        size_t points = m->vertices.count;
-        size_t bricks = m->bricks.capacity * sizeof *m->bricks.items + m->slot_count * sizeof *m->slots +
-                        m->stack.capacity * sizeof *m->stack.items;
-        size_t vertices = m->vertices.capacity * sizeof *m->vertices.items;
-        status = points ? mesher_assemble(m, mesh, err) : explain_nothing(making, cube, err);
-        size_t placed = points * 2 * sizeof(double[3]);
-        making->stats->evaluations += m->probe.evaluations;
-        making->stats->worst_residual = m->worst_residual;
-        making->stats->bytes = bricks + placed +
-                               (vertices > 2 * points * 12 ? vertices : 2 * points * sizeof(uint32_t[3]));
-        mesher_clear(m);
-    }
-    free(m);
+    struct mesher m;
+    if (find(making, cube, false, &m, err))
+        return err->status;
+    enum status status = m.vertex_count ? mesher_assemble(&m, mesh, err) : explain_nothing(making, cube, err);
+    add_stats(&m, making->stats);
+    making->stats->bytes = m.bytes;
+    mesher_clear(&m);
     return status;
 }
 
@@ -194,9 +189,15 @@ enum status surface_make(const struct octree *tree, const struct surface_options
     making.info = octree_measure(tree);
     if (making.info.full_leaves == 0)
         return error_set(err, STATUS_INPUT, "the sculpture is empty: there is no surface around nothing");
-    double cube = options->cube_size > 0 ? options->cube_size * making.field.side : default_cube(&making);
-    if (options->cube_size <= 0 && options->triangles && choose_cube(&making, &cube, err))
+    if (threads_open(&making.pool, options->threads, err))
         return err->status;
+    double cube = options->cube_size > 0 ? options->cube_size * making.field.side : default_cube(&making);
+    enum status status = STATUS_OK;
+    if (options->cube_size <= 0 && options->triangles)
+        status = choose_cube(&making, &cube, err);
     stats->cube_size = cube / making.field.side;
-    return make_at(&making, cube, mesh, err);
+    if (status == STATUS_OK)
+        status = make_at(&making, cube, mesh, err);
+    threads_close(making.pool);
+    return status;
 }

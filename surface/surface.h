@@ -45,6 +45,7 @@ struct surface_options {
     uint32_t triangles;          /* 0, or the number of triangles to choose the cube size for */
     enum surface_seeds seeds;
     uint64_t seed;                                /* of the random points */
+    unsigned threads;                             /* 0, the default: as many as the machine has */
     void (*progress)(void *context, double done); /* NULL, or told the share that is done from time to time */
     void *progress_context;
 };

@@ -1,19 +1,20 @@
 /* Where edges cross the surface. */
-#include "common/array.h"
 #include "common/vec3.h"
 #include "surface/mesher.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /*
  * A corner of the grid that happens to lie almost on the surface would get three or more vertices almost in
- * one place: slivers, and sides that vanish in a file of single precision. Such a corner is moved away from
+ * one place, so near that they fall together in a file of single precision. Such a corner is moved away from
  * the surface, along the gradient to its own side, until it is about CLEARANCE cubes away. It stays inside
  * or outside as it was, so which edges are crossed does not change, and vertices are still found on the
  * true surface: only the edge that they are looked for on is bent. Where a corner goes depends on the field
- * there alone, so all edges and bricks that share it agree.
+ * there alone, so all edges and bricks that share it agree. Bent edges cost full evaluations of the field, so
+ * there are to be few; slivers are relaxation's to cure.
  */
-#define CLEARANCE 0.2
+#define CLEARANCE 0.05
 
 /* No vertex is nearer to an edge's end than this share of it, even where a corner cannot move (a threshold
  * that is the field's extreme value, where the gradient vanishes). */
@@ -22,12 +23,13 @@
 /* Well below the 1e-9 that is promised, since Newton's method squares the error at each turn. */
 #define RESIDUAL 1e-10
 
-static void move_corner(struct mesher *m, struct moved_corner *corner)
+static void move_corner(const struct mesher *m, struct worker *worker, struct moved_corner *corner)
 {
     double gradient[3], clearance = CLEARANCE * m->grid.cube;
     if (fabs(corner->excess) >= clearance * m->field->steepness)
         return;
-    probe_value(&m->probe, corner->place, gradient);
+    worker->evaluations++;
+    block_value(&worker->block, corner->place, gradient);
     double steepness = vec3_length(gradient);
     double missing = clearance - fabs(corner->excess) / steepness;
     if (!(steepness > 0 && missing > 0))
@@ -35,46 +37,105 @@ static void move_corner(struct mesher *m, struct moved_corner *corner)
     double place[3], along = copysign(missing / steepness, corner->excess);
     for (int axis = 0; axis < 3; axis++)
         place[axis] = corner->place[axis] + along * gradient[axis];
-    double excess = probe_value(&m->probe, place, gradient) - m->threshold;
+    worker->evaluations++;
+    double excess = block_value(&worker->block, place, gradient) - m->threshold;
     if (signbit(excess) != signbit(corner->excess) || fabs(excess) <= fabs(corner->excess))
         return;
     memcpy(corner->place, place, sizeof place);
     corner->excess = excess;
+    corner->moved = true;
 }
 
-static const struct moved_corner *corner_of(struct mesher *m, const struct brick *brick, const int at[3])
+static const struct moved_corner *corner_of(const struct mesher *m, struct worker *worker, const int at[3])
 {
     int index = (at[2] * BRICK_CORNERS + at[1]) * BRICK_CORNERS + at[0];
-    struct moved_corner *corner = &m->moved[index];
+    struct moved_corner *corner = &worker->corner[index];
     if (corner->known)
         return corner;
     for (int axis = 0; axis < 3; axis++)
-        corner->place[axis] = grid_coordinate(&m->grid, brick->at[axis] * BRICK + at[axis]);
-    corner->excess = m->values[index] - m->threshold;
+        corner->place[axis] = grid_coordinate(&m->grid, worker->block.corner[axis] + at[axis]);
+    corner->excess = worker->block.values[index] - m->threshold;
     corner->known = true;
-    move_corner(m, corner);
+    corner->moved = false;
+    move_corner(m, worker, corner);
     return corner;
 }
 
-/* Newton's method along the segment, kept between the last points known to be inside and outside; where a
- * step would leave that bracket it is halved instead. */
-void find_crossing(struct mesher *m, const double inside[3], double inside_excess, const double outside[3],
-                   double outside_excess, double point[3], double gradient[3])
+/* The share of a way at which Newton's method looks next, kept between the last ones known to be inside and
+ * outside; where a step would leave that bracket it is halved instead. */
+struct bracket {
+    double share, low, high;
+};
+
+static struct bracket bracket_at(double share)
 {
-    double way[3], low = LEAST_SHARE, high = 1 - LEAST_SHARE, excess = 0;
-    double share = fmin(fmax(inside_excess / (inside_excess - outside_excess), low), high);
+    double low = LEAST_SHARE, high = 1 - LEAST_SHARE;
+    return (struct bracket){fmin(fmax(share, low), high), low, high};
+}
+
+/* slope: of the excess, by the share. False when there is nowhere better to look. */
+static bool next_share(struct bracket *b, double excess, double slope)
+{
+    if (fabs(excess) <= RESIDUAL || !(b->low < b->high))
+        return false;
+    *(excess >= 0 ? &b->low : &b->high) = b->share;
+    double next = b->share - excess / slope;
+    b->share = next > b->low && next < b->high ? next : (b->low + b->high) / 2;
+    return true;
+}
+
+enum { TURNS = 80 }; /* of Newton's method; halving alone ends after some 55 */
+
+void find_crossing(const struct mesher *m, struct worker *worker, const double inside[3],
+                   double inside_excess, const double outside[3], double outside_excess, double point[3],
+                   double gradient[3])
+{
+    double way[3], excess = 0;
+    struct bracket b = bracket_at(inside_excess / (inside_excess - outside_excess));
     vec3_sub(outside, inside, way);
-    for (int turn = 0; turn < 80; turn++) {
+    for (int turn = 0; turn < TURNS; turn++) {
         for (int axis = 0; axis < 3; axis++)
-            point[axis] = inside[axis] + share * way[axis];
-        excess = probe_value(&m->probe, point, gradient) - m->threshold;
-        if (fabs(excess) <= RESIDUAL || !(low < high))
+            point[axis] = inside[axis] + b.share * way[axis];
+        excess = probe_value(&worker->probe, point, gradient) - m->threshold;
+        if (!next_share(&b, excess, vec3_dot(gradient, way)))
             break;
-        *(excess >= 0 ? &low : &high) = share;
-        double next = share - excess / vec3_dot(gradient, way);
-        share = next > low && next < high ? next : (low + high) / 2;
     }
-    m->worst_residual = fmax(m->worst_residual, fabs(excess));
+    worker->worst_residual = fmax(worker->worst_residual, fabs(excess));
+}
+
+/* Where the cubic in the excess passes 0 that has both ends' places (0 and 1) and slopes: two orders better than
+ * the straight line, whose share stands in where the slopes are of no use. */
+static double first_share(double first, double last, const double slope[2])
+{
+    double rise = last - first, t = -first / rise;
+    double a = rise / slope[0], b = rise / slope[1]; /* d share / d t at both ends */
+    /* Both between 0 and 3: the cubic is monotone (Fritsch and Carlson 1980). */
+    if (!(a > 0 && a < 3 && b > 0 && b < 3))
+        return t;
+    return t * t * (3 - 2 * t) + t * (1 - t) * ((1 - t) * a - t * b);
+}
+
+/* Along an edge of the grid, whose corners were not moved. */
+static void cross_line(const struct mesher *m, struct worker *worker, int axis, const int at[3], double first,
+                       double last, double point[3], double gradient[3])
+{
+    struct line line = block_line(&worker->block, axis, at);
+    double cube = m->grid.cube, start = point[axis], slopes[2], slope = 0, excess = 0;
+    bool rising = first < last;
+    line_slopes(&line, at, slopes);
+    slopes[0] *= cube;
+    slopes[1] *= cube;
+    double share = first_share(first, last, slopes);
+    struct bracket b = bracket_at(rising ? 1 - share : share); /* from the inside out */
+    for (int turn = 0; turn < TURNS; turn++) {
+        point[axis] = start + cube * (rising ? 1 - b.share : b.share);
+        excess = line_value(&line, point[axis], &slope) - m->threshold;
+        worker->evaluations++;
+        if (!next_share(&b, excess, rising ? -slope * cube : slope * cube))
+            break;
+    }
+    line_gradient(&line, slope, gradient);
+    worker->worst_residual = fmax(worker->worst_residual, fabs(excess));
 }
 
 void vertex_set(const struct mesher *m, const double point[3], const double gradient[3],
@@ -87,37 +148,59 @@ void vertex_set(const struct mesher *m, const double point[3], const double grad
     }
 }
 
-static void find_vertex(struct mesher *m, const struct brick *brick, const int at[3], int axis,
+static void find_vertex(const struct mesher *m, struct worker *worker, const int at[3], int axis,
                         struct vertex *vertex)
 {
     int end[3] = {at[0], at[1], at[2]};
     end[axis]++;
-    const struct moved_corner *inside = corner_of(m, brick, at), *outside = corner_of(m, brick, end);
+    const struct moved_corner *inside = corner_of(m, worker, at), *outside = corner_of(m, worker, end);
+    double point[3], gradient[3], outwards[3];
+    if (!inside->moved && !outside->moved) {
+        memcpy(point, inside->place, sizeof point);
+        cross_line(m, worker, axis, at, inside->excess, outside->excess, point, gradient);
+    }
     if (signbit(inside->excess)) {
         const struct moved_corner *swap = inside;
         inside = outside;
         outside = swap;
     }
-    double point[3], gradient[3], outwards[3];
-    find_crossing(m, inside->place, inside->excess, outside->place, outside->excess, point, gradient);
+    if (inside->moved || outside->moved)
+        find_crossing(m, worker, inside->place, inside->excess, outside->place, outside->excess, point,
+                      gradient);
     vec3_sub(outside->place, inside->place, outwards);
     vertex_set(m, point, gradient, outwards, vertex);
 }
 
-void brick_find_vertices(struct mesher *m, struct brick *brick)
+/* Room for that many vertices, side by side; NULL when there is no memory. */
+static struct vertex *take_vertices(struct worker *worker, uint32_t count)
 {
-    if (!ARRAY_RESERVE(&m->vertices, brick->vertex_count)) {
-        m->failed = true;
+    enum { CHUNK = 4096 }; /* a brick has at most 3 x 512 */
+    struct vertex_chunk *chunk = worker->chunks;
+    if (!chunk || chunk->count + count > CHUNK) {
+        chunk = malloc(sizeof *chunk + CHUNK * sizeof chunk->items[0]);
+        if (!chunk)
+            return NULL;
+        *chunk = (struct vertex_chunk){.next = worker->chunks};
+        worker->chunks = chunk;
+        worker->bytes += sizeof *chunk + CHUNK * sizeof chunk->items[0];
+    }
+    chunk->count += count;
+    return &chunk->items[chunk->count - count];
+}
+
+void brick_find_vertices(const struct mesher *m, struct worker *worker, struct brick *brick)
+{
+    struct vertex *next = brick->vertices = take_vertices(worker, brick->vertex_count);
+    if (!next) {
+        worker->failed = true;
         return;
     }
-    for (size_t i = 0; i < sizeof m->moved / sizeof m->moved[0]; i++)
-        m->moved[i].known = false;
+    for (size_t i = 0; i < BLOCK_VALUES; i++)
+        worker->corner[i].known = false;
     for (int z = 0; z < BRICK; z++)
         for (int axis = 0; axis < 3; axis++)
             for (uint64_t edges = brick->crossed[axis][z]; edges; edges &= edges - 1) {
                 int bit = __builtin_ctzll(edges);
-                find_vertex(m, brick, (int[3]){bit % BRICK, bit / BRICK, z}, axis,
-                            &m->vertices.items[m->vertices.count++]);
+                find_vertex(m, worker, (int[3]){bit % BRICK, bit / BRICK, z}, axis, next++);
             }
-    m->failed |= m->probe.failed;
 }

@@ -2,7 +2,8 @@
 #include "check.h"
 #include "common/random.h"
 #include "common/vec3.h"
-#include "surface/grid.h"
+#include "surface/block.h"
+#include "surface/probe.h"
 #include "surface/surface.h"
 
 /* What the rounding of a right-angled edge takes away of its cross-section, in s^2, at half the inside's
@@ -133,24 +134,24 @@ static size_t crossings(const struct octree *tree, const struct surface_options 
     struct error err = {0};
     struct field field;
     struct grid grid;
-    struct field_items scratch = {0};
-    double values[729];
+    struct block block;
     size_t count = 0;
     assert_ok(field_init(&field, tree, &options->field, &err), &err);
     assert_ok(grid_init(&grid, &field, options->cube_size * (1 << tree->depth), &err), &err);
+    assert_true(block_init(&block, &grid));
     for (int x = grid.brick_low[0]; x <= grid.brick_high[0]; x++)
         for (int y = grid.brick_low[1]; y <= grid.brick_high[1]; y++)
             for (int z = grid.brick_low[2]; z <= grid.brick_high[2]; z++) {
-                assert_true(grid_sample(&grid, (int[3]){8 * x, 8 * y, 8 * z}, 9, &scratch, values));
+                assert_true(block_move(&block, (int[3]){8 * x, 8 * y, 8 * z}) && block_sample(&block));
                 for (int i = 0; i < 512; i++) {
-                    const double *v = values + (i >> 6) * 81 + (i >> 3 & 7) * 9 + (i & 7);
+                    const double *v = block.values + (i >> 6) * 81 + (i >> 3 & 7) * 9 + (i & 7);
                     bool inside = *v >= options->threshold;
                     count += inside != (v[1] >= options->threshold);
                     count += inside != (v[9] >= options->threshold);
                     count += inside != (v[81] >= options->threshold);
                 }
             }
-    free(scratch.items);
+    block_clear(&block);
     grid_clear(&grid);
     return count;
 }
