@@ -1,0 +1,63 @@
+/*
+ * Plots, drawn by the program gnuplot, which reads a script on its standard input and writes the picture to
+ * its standard output: no shell, no file in between.
+ *
+ *     const struct plot_series series[] = {{"rk4", PLOT_CURVE, errors, seconds, NULL, count}};
+ *     const struct plot_panel panels[] = {
+ *         {"Price of accuracy", "RMS error", "seconds", true, true, series, 1}};
+ *     const struct plot plot = {"fox.cfg", panels, 1, 1};
+ *     if (plot_check("cost.png", err)) ...            before the long work: no gnuplot, no plot
+ *     if (plot_save(&plot, "cost.png", err)) ...
+ *
+ * Enough for a work-precision diagram (curves on logarithmic axes), a time series (lines) and bars. Points that
+ * cannot be drawn, those not finite and those not above 0 on a logarithmic axis, are left out and break a line.
+ */
+#ifndef COMMON_PLOT_H
+#define COMMON_PLOT_H
+
+#include "common/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum plot_style {
+    PLOT_LINE,   /* for many points */
+    PLOT_CURVE,  /* a line with a mark at each point, for few */
+    PLOT_POINTS, /* marks only */
+    PLOT_BARS,   /* a bar a point, standing on 0 (on a logarithmic axis: on its lower end); x is not read */
+};
+
+/* All is borrowed. Text is UTF-8 and drawn as it is. */
+struct plot_series {
+    const char *name; /* in the key; NULL: not there */
+    enum plot_style style;
+    const double *x, *y;      /* [count] */
+    const char *const *label; /* [count] beside each point, or below each bar; NULL: none */
+    size_t count;
+};
+
+struct plot_panel {
+    const char *title, *x_label, *y_label; /* NULL: none */
+    bool log_x, log_y;
+    const struct plot_series *series; /* [series_count]; bars and others do not mix in a panel */
+    size_t series_count;
+};
+
+struct plot {
+    const char *title;               /* above all panels; NULL: none */
+    const struct plot_panel *panels; /* [panel_count] row by row */
+    size_t panel_count, columns;     /* columns at least 1 */
+};
+
+/* True when the name ends in .png or .svg, upper or lower case. */
+bool plot_is_file_name(const char *path);
+
+/* Whether plot_save() could begin. Errors: STATUS_USAGE for another extension; STATUS_RESOURCE where gnuplot
+ * is not installed, with how to get it. */
+enum status plot_check(const char *path, struct error *err);
+
+/* Draws into path, which is replaced when all went well and else stays as it was. Errors: those of
+ * plot_check(); STATUS_FILE; STATUS_NO_MEMORY; STATUS_RESOURCE with the first line of gnuplot's complaint. */
+enum status plot_save(const struct plot *plot, const char *path, struct error *err);
+
+#endif

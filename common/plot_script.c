@@ -1,0 +1,168 @@
+/* A plot in gnuplot's language. */
+#include "common/plot_script.h"
+
+#include <math.h>
+
+enum { PANEL_WIDTH = 620, PANEL_HEIGHT = 470, TITLE_HEIGHT = 40 };
+
+/* Colours that stay apart for colour-blind eyes (Okabe and Ito, "Color universal design", 2008; its black is
+ * left to the axes and its yellow, too pale for lines, is left out). */
+static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
+enum { COLOURS = sizeof colours / sizeof *colours };
+
+/* A text between quotes, in which gnuplot reads nothing but a doubled quote; line ends become spaces. */
+static void put_text(FILE *script, const char *text)
+{
+    fputc('\'', script);
+    for (; text && *text; text++) {
+        if (*text == '\'')
+            fputc('\'', script);
+        fputc((unsigned char)*text < ' ' ? ' ' : *text, script);
+    }
+    fputc('\'', script);
+}
+
+static void put_setting(FILE *script, const char *name, const char *text)
+{
+    fprintf(script, "set %s ", name);
+    put_text(script, text);
+    fputs(" noenhanced\n", script);
+}
+
+static bool drawable(double value, bool logarithmic)
+{
+    return isfinite(value) && (value > 0 || !logarithmic);
+}
+
+/* A series as a named block of data: x, y and label; a blank line where a point is left out. */
+static void put_data(FILE *script, const struct plot_panel *panel, size_t index)
+{
+    const struct plot_series *s = &panel->series[index];
+    fprintf(script, "$series%zu << END_OF_SERIES\n", index);
+    for (size_t i = 0; i < s->count; i++) {
+        double x = s->style == PLOT_BARS ? (double)i : s->x[i];
+        if (!drawable(x, panel->log_x) || !drawable(s->y[i], panel->log_y)) {
+            fputc('\n', script);
+            continue;
+        }
+        fprintf(script, "%.12g %.12g \"", x, s->y[i]);
+        for (const char *c = s->label ? s->label[i] : ""; *c; c++)
+            fputc(*c == '"' || *c == '\\' || (unsigned char)*c < ' ' ? ' ' : *c, script);
+        fputs("\"\n", script);
+    }
+    fputs("END_OF_SERIES\n", script);
+}
+
+static bool has_points(const struct plot_panel *panel)
+{
+    for (size_t i = 0; i < panel->series_count; i++)
+        for (size_t k = 0; k < panel->series[i].count; k++) {
+            const struct plot_series *s = &panel->series[i];
+            if ((s->style == PLOT_BARS || drawable(s->x[k], panel->log_x)) && drawable(s->y[k], panel->log_y))
+                return true;
+        }
+    return false;
+}
+
+static bool has_bars(const struct plot_panel *panel)
+{
+    return panel->series_count && panel->series[0].style == PLOT_BARS;
+}
+
+/* Bars at the same label stand side by side and leave a fifth of the room free. */
+static double bar_width(const struct plot_panel *panel)
+{
+    return 0.8 / (double)panel->series_count;
+}
+
+static void put_axes(FILE *script, const struct plot_panel *panel)
+{
+    put_setting(script, "title", panel->title);
+    put_setting(script, "xlabel", panel->x_label);
+    put_setting(script, "ylabel", panel->y_label);
+    for (int axis = 'x'; axis <= 'y'; axis++) {
+        bool logarithmic = axis == 'x' ? panel->log_x && !has_bars(panel) : panel->log_y;
+        fprintf(script,
+                logarithmic ? "set logscale %c\nset format %c '10^{%%L}'\n"
+                            : "unset logscale %c\nset format %c '%%g'\n",
+                axis, axis);
+    }
+    /* Labels beside points need room; the lines of a time series end where the time does. */
+    bool lines = panel->series_count && panel->series[0].style == PLOT_LINE;
+    fputs(lines ? "set autoscale xfix\nset offsets 0, 0, graph 0.05, graph 0.02\n"
+                : "set autoscale x\nset offsets graph 0.02, graph 0.08, graph 0.05, 0\n",
+          script);
+    bool named = false;
+    for (size_t i = 0; i < panel->series_count; i++)
+        named = named || panel->series[i].name;
+    fputs(named ? "set key on\n" : "set key off\n", script);
+    if (has_bars(panel))
+        fprintf(script, "set style fill solid 0.85 noborder\nset boxwidth %g absolute\n", bar_width(panel));
+    fputs(has_bars(panel) ? "set xtics rotate by -35 nomirror noenhanced\n"
+                          : "set xtics norotate autofreq nomirror enhanced\n",
+          script);
+}
+
+static void put_series(FILE *script, const struct plot_panel *panel, size_t index)
+{
+    const struct plot_series *s = &panel->series[index];
+    const char *colour = colours[index % COLOURS];
+    const int mark = 5 + 2 * (int)(index % 5); /* filled square, disc, triangle, ... */
+    fprintf(script, "$series%zu ", index);
+    if (s->style == PLOT_BARS)
+        fprintf(script, "using ($0 + %g):2%s with boxes lc rgb '%s' ",
+                bar_width(panel) * ((double)index - 0.5 * (double)(panel->series_count - 1)),
+                s->label ? ":xtic(3)" : "", colour);
+    else if (s->style == PLOT_LINE)
+        fprintf(script, "using 1:2 with lines lw 2 lc rgb '%s' ", colour);
+    else
+        fprintf(script, "using 1:2 with %s lw 2 pt %d ps 0.9 lc rgb '%s' ",
+                s->style == PLOT_CURVE ? "linespoints" : "points", mark, colour);
+    fputs("title ", script);
+    put_text(script, s->name);
+    fputs(s->name ? " noenhanced" : "", script);
+    if (s->label && s->style != PLOT_BARS)
+        fprintf(script,
+                ", $series%zu using 1:2:3 with labels left offset 0.8,0.5 font ',9' noenhanced tc rgb '%s' "
+                "notitle",
+                index, colour);
+}
+
+static void put_panel(FILE *script, const struct plot_panel *panel)
+{
+    for (size_t i = 0; i < panel->series_count; i++)
+        put_data(script, panel, i);
+    put_axes(script, panel);
+    if (!has_points(panel)) { /* an empty frame, where gnuplot would give up */
+        fputs("set key off\nset xrange [1:10]\nset yrange [1:10]\nplot NaN\nset autoscale\n", script);
+        return;
+    }
+    fputs("plot ", script);
+    for (size_t i = 0; i < panel->series_count; i++) {
+        fputs(i ? ", " : "", script);
+        put_series(script, panel, i);
+    }
+    fputc('\n', script);
+}
+
+void plot_write_script(const struct plot *plot, bool svg, FILE *script)
+{
+    size_t rows = (plot->panel_count + plot->columns - 1) / plot->columns;
+    fprintf(script, "set encoding utf8\nset terminal %s size %zu,%zu font 'DejaVu Sans,11' %s\n",
+            svg ? "svg" : "pngcairo", plot->columns * PANEL_WIDTH,
+            rows * PANEL_HEIGHT + (plot->title ? TITLE_HEIGHT : 0), svg ? "background 'white'" : "");
+    fputs("set border 3 lc rgb '#404040'\nset tics nomirror out tc rgb '#404040'\n"
+          "set grid xtics ytics lc rgb '#e0e0e0' lw 1 lt 1\nset datafile missing 'NaN'\n"
+          "set key top right samplen 2 spacing 1.2 opaque box lc rgb '#d0d0d0' width 1\n",
+          script);
+    fprintf(script, "set multiplot layout %zu,%zu", rows, plot->columns);
+    if (plot->title) {
+        fputs(" title ", script);
+        put_text(script, plot->title);
+        fputs(" noenhanced font ',14'", script);
+    }
+    fputc('\n', script);
+    for (size_t i = 0; i < plot->panel_count; i++)
+        put_panel(script, &plot->panels[i]);
+    fputs("unset multiplot\n", script);
+}

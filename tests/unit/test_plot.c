@@ -1,0 +1,83 @@
+/* Plots: what is drawn, what is left out, and what is said where it cannot be. */
+#include "check.h"
+#include "common/file.h"
+#include "common/plot.h"
+#include "folder.h"
+
+#include <sys/stat.h>
+
+static const double x[] = {0.1, 0.01, 0.001, (double)NAN}, y[] = {1, 4, -2, 16};
+static const char *const label[] = {"1/4", "it's", "a \"b\" \\c\n", "d"};
+
+static enum status save(enum plot_style style, const char *path, struct error *err)
+{
+    const struct plot_series series[] = {{"first's", style, x, y, label, 4}, {NULL, style, x, y, NULL, 4}};
+    const struct plot_panel panels[] = {{"one", "error", "seconds", true, true, series, 2},
+                                        {NULL, NULL, NULL, true, true, NULL, 0}};
+    const struct plot plot = {"it's a 'title'", panels, 2, 2};
+    return plot_save(&plot, path, err);
+}
+
+static bool installed(void)
+{
+    struct error err = {0};
+    if (plot_check("a.png", &err) == STATUS_OK)
+        return true;
+    print_message("skipped, nothing was drawn: %s\n", err.text);
+    return false;
+}
+
+static void every_style_is_drawn_as_png_and_svg_whatever_the_points_and_texts(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    for (int style = PLOT_LINE; installed() && style <= PLOT_BARS; style++) {
+        struct bytes bytes = {0};
+        assert_ok(save((enum plot_style)style, "a.png", &err), &err);
+        assert_ok(file_read("a.png", &bytes, &err), &err);
+        assert_memory_equal(bytes.data, "\x89PNG", 4);
+        bytes_clear(&bytes);
+        assert_ok(save((enum plot_style)style, "a.svg", &err), &err);
+        assert_ok(file_read("a.svg", &bytes, &err), &err);
+        assert_non_null(strstr((const char *)bytes.data, "</svg>"));
+        bytes_clear(&bytes);
+    }
+}
+
+static void without_gnuplot_the_message_says_how_to_get_it_and_the_old_file_stays(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    char *path = strdup(getenv("PATH"));
+    write_text("old.png", "old");
+    setenv("PATH", "/nowhere", 1);
+    assert_refused(save(PLOT_CURVE, "old.png", &err), STATUS_RESOURCE, "apt install gnuplot", &err);
+    write_text("gnuplot", "#!/bin/sh\necho '     ^' >&2\necho 'line 1: bad weather' >&2\nexit 3\n");
+    assert_int_equal(chmod("gnuplot", 0755), 0);
+    setenv("PATH", test_folder, 1);
+    assert_refused(save(PLOT_CURVE, "old.png", &err), STATUS_RESOURCE, "gnuplot failed: line 1: bad weather",
+                   &err);
+    setenv("PATH", path, 1);
+    free(path);
+    struct bytes bytes = {0};
+    assert_ok(file_read("old.png", &bytes, &err), &err);
+    assert_int_equal(bytes.size, 3);
+    bytes_clear(&bytes);
+}
+
+static void other_extensions_are_refused(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    assert_refused(save(PLOT_CURVE, "a.pdf", &err), STATUS_USAGE, ".png or .svg", &err);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_style_is_drawn_as_png_and_svg_whatever_the_points_and_texts),
+        cmocka_unit_test(without_gnuplot_the_message_says_how_to_get_it_and_the_old_file_stays),
+        cmocka_unit_test(other_extensions_are_refused),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
