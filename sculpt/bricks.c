@@ -53,36 +53,101 @@ static void mark_cells(struct brick_cells *cells, const struct octree *tree, con
     octree_visit(tree, low, high, mark_leaf, cells);
 }
 
-static unsigned material_at(const struct brick_cells *cells, int x, int y, int z)
+/* The exposed cells of a brick on one side, layer by layer along the side's axis: a bit a cell of a row. Rows of bits
+ * are along x, but along y where the side looks along x; the rows follow each other along z, but along y where it
+ * looks along z. */
+struct brick_layers {
+    int side, along, across; /* the axes of bits and of rows */
+    uint32_t row[BRICK_SIDE][BRICK_SIDE];
+    uint32_t used; /* layers that have any */
+};
+
+static void add_to_layer(struct brick_layers *layers, int layer, int row, uint32_t bits)
+{
+    layers->row[layer][row] |= bits;
+    layers->used |= (uint32_t)1 << layer;
+}
+
+static void find_layers(struct brick_layers *layers, const struct brick_cells *cells, int side)
+{
+    *layers = (struct brick_layers){.side = side, .along = side / 2 == 0, .across = side / 2 == 2 ? 1 : 2};
+    const int way = side & 1 ? 1 : -1;
+    for (int z = 0; z < BRICK_SIDE; z++)
+        for (int y = 0; y < BRICK_SIDE; y++) {
+            const uint64_t row = cells->row[z + 1][y + 1];
+            const uint64_t beside = side / 2 == 0   ? (side & 1 ? row >> 1 : row << 1)
+                                    : side / 2 == 1 ? cells->row[z + 1][y + 1 + way]
+                                                    : cells->row[z + 1 + way][y + 1];
+            uint32_t exposed = (uint32_t)((row & ~beside) >> 1); /* the borders belong to other bricks */
+            if (exposed && side / 2 > 0)
+                add_to_layer(layers, side / 2 == 1 ? y : z, side / 2 == 1 ? z : y, exposed);
+            for (; exposed && side / 2 == 0; exposed &= exposed - 1)
+                add_to_layer(layers, __builtin_ctz(exposed), z, (uint32_t)1 << y);
+        }
+}
+
+/* The material of the cell of a layer. */
+static unsigned material_at(const struct brick_cells *cells, const struct brick_layers *layers, int layer,
+                            int row, int bit)
 {
     if (!cells->mixed)
         return cells->material;
-    return octree_at(cells->tree, cells->first[0] + x, cells->first[1] + y, cells->first[2] + z);
+    int cell[3];
+    cell[layers->side / 2] = layer;
+    cell[layers->along] = bit;
+    cell[layers->across] = row;
+    for (int i = 0; i < 3; i++)
+        cell[i] += cells->first[i] + 1;
+    return octree_at(cells->tree, cell[0], cell[1], cell[2]);
 }
 
-/* The exposed ones of a row's cells become faces, a run of one material each. For faces along x a run is one
- * cell: its neighbours in the run lie in other rows. */
-static bool add_row(struct brick_faces *faces, const struct brick_cells *cells, uint64_t exposed, int y,
-                    int z, int side)
+/* How many of the cells of a row from `bit` on belong together. */
+static int run_length(const struct brick_cells *cells, const struct brick_layers *layers, int layer, int row,
+                      int bit, unsigned material)
 {
-    exposed &= (((uint64_t)1 << BRICK_SIDE) - 1) << 1; /* the borders belong to other bricks */
-    while (exposed) {
-        if (!ARRAY_RESERVE(faces, 1))
-            return false;
-        const int x = __builtin_ctzll(exposed);
-        const unsigned material = material_at(cells, x, y, z);
-        int length = 1;
-        if (side >= 2)
-            while (exposed >> (x + length) & 1 && material_at(cells, x + length, y, z) == material)
-                length++;
-        exposed &= ~((((uint64_t)1 << length) - 1) << x);
-        struct brick_face face = {
-            .length = (uint16_t)length, .side = (uint8_t)side, .material = (uint8_t)material};
-        const int cell[3] = {x, y, z};
-        for (int i = 0; i < 3; i++)
-            face.corner[i] = (uint16_t)(cells->first[i] + cell[i] + (side == 2 * i + 1));
-        faces->items[faces->count++] = face;
-    }
+    const uint32_t bits = layers->row[layer][row] >> bit;
+    const int most = ~bits ? __builtin_ctz(~bits) : BRICK_SIDE;
+    int length = 1;
+    while (length < most && material_at(cells, layers, layer, row, bit + length) == material)
+        length++;
+    return length;
+}
+
+/* Takes the rectangle that begins with the first cell of a row: as long as it can be, then as high. */
+static struct brick_face take_rectangle(const struct brick_cells *cells, struct brick_layers *layers,
+                                        int layer, int row)
+{
+    const int bit = __builtin_ctz(layers->row[layer][row]), axis = layers->side / 2;
+    const unsigned material = material_at(cells, layers, layer, row, bit);
+    const int length = run_length(cells, layers, layer, row, bit, material);
+    const uint32_t mask = (uint32_t)(((uint64_t)1 << length) - 1) << bit;
+    int height = 0;
+    do
+        layers->row[layer][row + height++] &= ~mask;
+    while (row + height < BRICK_SIDE && (layers->row[layer][row + height] & mask) == mask &&
+           material_at(cells, layers, layer, row + height, bit) == material &&
+           run_length(cells, layers, layer, row + height, bit, material) >= length);
+    struct brick_face face = {.side = (uint8_t)layers->side, .material = (uint8_t)material};
+    int corner[3];
+    corner[axis] = layer + (layers->side & 1);
+    corner[layers->along] = bit;
+    corner[layers->across] = row;
+    for (int i = 0; i < 3; i++)
+        face.corner[i] = (uint16_t)(cells->first[i] + 1 + corner[i]);
+    face.size[layers->along != (axis + 1) % 3] = (uint8_t)length;
+    face.size[layers->along == (axis + 1) % 3] = (uint8_t)height;
+    return face;
+}
+
+static bool add_layer(struct brick_faces *faces, const struct brick_cells *cells, struct brick_layers *layers,
+                      int layer)
+{
+    for (int row = 0; row < BRICK_SIDE; row++)
+        while (layers->row[layer][row]) {
+            if (!ARRAY_RESERVE(faces, 1))
+                return false;
+            faces->items[faces->count++] = take_rectangle(cells, layers, layer, row);
+        }
     return true;
 }
 
@@ -90,19 +155,16 @@ enum status brick_find_faces(const struct octree *tree, const int brick[3], stru
                              struct error *err)
 {
     struct brick_cells cells;
+    struct brick_layers layers;
     mark_cells(&cells, tree, brick);
     faces->count = 0;
-    bool enough = true;
-    for (int z = 1; z <= BRICK_SIDE && enough; z++)
-        for (int y = 1; y <= BRICK_SIDE && enough; y++) {
-            const uint64_t row = cells.row[z][y];
-            const uint64_t beside[6] = {
-                row << 1,           row >> 1, cells.row[z][y - 1], cells.row[z][y + 1], cells.row[z - 1][y],
-                cells.row[z + 1][y]};
-            for (int side = 0; side < 6 && row; side++)
-                enough &= add_row(faces, &cells, row & ~beside[side], y, z, side);
-        }
-    return enough ? STATUS_OK : error_no_memory(err, "the faces of a brick");
+    for (int side = 0; side < 6 && cells.material; side++) {
+        find_layers(&layers, &cells, side);
+        for (; layers.used; layers.used &= layers.used - 1)
+            if (!add_layer(faces, &cells, &layers, __builtin_ctz(layers.used)))
+                return error_no_memory(err, "the faces of a brick");
+    }
+    return STATUS_OK;
 }
 
 void bricks_of_region(const struct octree *tree, const struct octree_region *region, int first[3],

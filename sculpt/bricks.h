@@ -16,10 +16,10 @@
 
 enum { BRICK_SIDE = 32 };
 
-/* A run of exposed cell faces along x, of one material; those that look along x are one cell each. */
+/* A rectangle of exposed cell faces of one material. */
 struct brick_face {
     uint16_t corner[3]; /* the first cell's lower corner, on the face's plane, in cells */
-    uint16_t length;    /* in cells */
+    uint8_t size[2];    /* in cells: along y, z for sides of x; along z, x for y; along x, y for z */
     uint8_t side;       /* where it looks: 0 -x, 1 +x, 2 -y, 3 +y, 4 -z, 5 +z */
     uint8_t material;   /* behind it */
 };

@@ -19,36 +19,34 @@ static void colour_of(unsigned material, uint8_t colour[3])
     }
 }
 
-static void face_size(const struct brick_face *from, uint16_t length, uint16_t size[2])
+/* A row of cells of a rectangle, parted where their normals differ. `face` is that of its first cell. */
+static void light_row(struct app *app, const struct brick_normals *normals, struct render_face face,
+                      int length)
 {
-    size[0] = size[1] = 1;
-    if (from->side / 2 == 1) /* sizes go along y, z; z, x; x, y */
-        size[1] = length;
-    else if (from->side / 2 == 2)
-        size[0] = length;
+    const int axis = face.side / 2, along = (axis + 1) % 3;
+    int cell[3] = {face.corner[0], face.corner[1], face.corner[2]};
+    cell[axis] -= face.side & 1;
+    face.size[0] = 0;
+    for (int i = 0; i < length; i++, cell[along]++) {
+        int8_t normal[3] = {0};
+        brick_normal(normals, cell, face.side, normal);
+        if (i > 0 && memcmp(normal, face.normal, sizeof normal) != 0) {
+            app->faces.items[app->faces.count++] = face;
+            face.corner[along] = (uint16_t)cell[along];
+            face.size[0] = 0;
+        }
+        memcpy(face.normal, normal, sizeof normal);
+        face.size[0]++;
+    }
+    app->faces.items[app->faces.count++] = face;
 }
 
-/* A run of cells, parted where their normals differ. */
-static void light_run(struct app *app, const struct brick_normals *normals, const struct brick_face *from,
-                      struct render_face face)
+static void light_face(struct app *app, const struct brick_normals *normals, struct render_face face)
 {
-    int8_t last[3] = {0};
-    int begin = 0;
-    for (int i = 0; i <= from->length; i++) {
-        int8_t normal[3] = {0};
-        int cell[3] = {from->corner[0] + i, from->corner[1], from->corner[2]};
-        cell[from->side / 2] -= from->side & 1;
-        if (i < from->length)
-            brick_normal(normals, cell, from->side, normal);
-        if (i > 0 && (i == from->length || memcmp(normal, last, sizeof last) != 0)) {
-            face.corner[0] = (uint16_t)(from->corner[0] + begin);
-            face_size(from, (uint16_t)(i - begin), face.size);
-            memcpy(face.normal, last, sizeof face.normal);
-            app->faces.items[app->faces.count++] = face;
-            begin = i;
-        }
-        memcpy(last, normal, sizeof last);
-    }
+    const int length = face.size[0], rows = face.size[1], across = (face.side / 2 + 2) % 3;
+    face.size[1] = 1;
+    for (int row = 0; row < rows; row++, face.corner[across]++)
+        light_row(app, normals, face, length);
 }
 
 static enum status convert(struct app *app, const int brick[3], struct error *err)
@@ -56,7 +54,7 @@ static enum status convert(struct app *app, const int brick[3], struct error *er
     struct brick_normals normals;
     size_t cells = 0;
     for (size_t i = 0; i < app->found.count; i++)
-        cells += app->found.items[i].length;
+        cells += (size_t)app->found.items[i].size[0] * app->found.items[i].size[1];
     app->faces.count = 0;
     if (!ARRAY_RESERVE(&app->faces, app->smooth_light ? cells : app->found.count))
         return error_no_memory(err, "the faces of a brick");
@@ -64,12 +62,11 @@ static enum status convert(struct app *app, const int brick[3], struct error *er
         brick_normals_begin(&normals, &app->session.tree, brick);
     for (size_t i = 0; i < app->found.count; i++) {
         const struct brick_face *from = &app->found.items[i];
-        struct render_face face = {.side = from->side};
+        struct render_face face = {.side = from->side, .size = {from->size[0], from->size[1]}};
         memcpy(face.corner, from->corner, sizeof face.corner);
-        face_size(from, from->length, face.size);
         colour_of(from->material, face.colour);
         if (app->smooth_light)
-            light_run(app, &normals, from, face);
+            light_face(app, &normals, face);
         else
             app->faces.items[app->faces.count++] = face;
     }

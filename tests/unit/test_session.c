@@ -215,7 +215,7 @@ static uint64_t count_faces(const struct octree *tree)
             for (at[2] = 0; at[2] < bricks_along(tree); at[2]++) {
                 assert_ok(brick_find_faces(tree, at, &faces, &err), &err);
                 for (size_t i = 0; i < faces.count; i++)
-                    count += faces.items[i].length;
+                    count += (uint64_t)faces.items[i].size[0] * faces.items[i].size[1];
             }
     free(faces.items);
     return count;
