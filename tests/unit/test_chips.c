@@ -1,28 +1,8 @@
-/* Shapes against their definitions on a dense grid of 64 cells a side; scripts; faces. */
-#include "check.h"
-#include "common/file.h"
-#include "common/random.h"
+/* Shapes against their definitions on a dense grid of 64 cells a side. */
 #include "common/vec3.h"
-#include "sculpt/sculpt.h"
-
-#include <unistd.h>
+#include "trees.h"
 
 enum { DEPTH = 6, SIDE = 1 << DEPTH };
-
-static char folder[] = "/tmp/balloon-chips-XXXXXX";
-
-static int enter_folder(void **state)
-{
-    (void)state;
-    return !mkdtemp(folder) || chdir(folder);
-}
-
-static int leave_folder(void **state)
-{
-    (void)state;
-    unlink("a.chips");
-    return rmdir(folder);
-}
 
 /* Where a point lies along an axis, and how far off it. */
 static void on_axis(const double *ends, const double p[3], double *along, double *off, double *length)
@@ -119,14 +99,6 @@ static void assert_same_cells(const struct octree *tree, const char *after)
                 if (octree_at(tree, x, y, z) != grid[z][y][x])
                     fail_msg("after %s cell %d %d %d is %u, must be %u", after, x, y, z,
                              octree_at(tree, x, y, z), grid[z][y][x]);
-}
-
-static struct octree new_tree(unsigned depth, unsigned material)
-{
-    struct octree tree = {0};
-    struct error err = {0};
-    assert_ok(octree_init(&tree, depth, material, &err), &err);
-    return tree;
 }
 
 /* Positions from -0.25 to 1.25, radii from 0.01 to 0.31: some reach out of the cube, some lie outside. */
@@ -277,186 +249,6 @@ static void what_is_no_shape_is_refused(void **state)
     }
 }
 
-static void write_script(const char *text)
-{
-    FILE *stream = fopen("a.chips", "wb");
-    assert_non_null(stream);
-    fputs(text, stream);
-    fclose(stream);
-}
-
-/* What a.chips makes. */
-static struct octree replay(void)
-{
-    struct error err = {0};
-    struct chips chips = {0};
-    struct octree tree = {0};
-    assert_ok(chips_load("a.chips", &chips, &err), &err);
-    assert_ok(chips_begin(&chips, 5, &tree, &err), &err);
-    for (size_t i = 0; i < chips.count; i++)
-        assert_ok(sculpt_chip(&tree, &chips.items[i], &err), &err);
-    chips_clear(&chips);
-    return tree;
-}
-
-static void a_script_does_what_it_says(void **state)
-{
-    (void)state;
-    write_script("# a comment\r\n"
-                 "\n"
-                 "  depth 4   # 16 cells\n"
-                 "start empty\n"
-                 "fill box 0 0 0 1 0.5 1\t# the floor\n"
-                 "material 7\n"
-                 "coefficient 7 -0.25\n"
-                 "fill box 0 0.5 0 0.5 1 1\n"
-                 "chip box 0 0 0 .5 .5 .5");
-    struct octree tree = replay();
-    assert_int_equal(tree.depth, 4);
-    assert_int_equal(octree_at(&tree, 15, 0, 0), 1);
-    assert_int_equal(octree_at(&tree, 0, 15, 0), 7);
-    assert_int_equal(octree_at(&tree, 15, 15, 0), 0);
-    assert_int_equal(octree_at(&tree, 7, 7, 7), 0);
-    assert_near((double)tree.coefficient[7], -0.25, 0);
-    octree_clear(&tree);
-}
-
-static void a_script_without_header_carves_a_full_cube(void **state)
-{
-    (void)state;
-    write_script("chip box 0 0 0 1 1 0.5\n");
-    struct octree tree = replay();
-    assert_int_equal(tree.depth, 5);
-    assert_int_equal(octree_measure(&tree).cells, 32 * 32 * 16);
-    octree_clear(&tree);
-}
-
-static void a_wrong_line_is_named(void **state)
-{
-    (void)state;
-    static const char *const cases[][2] = {
-        {"", "a.chips: the file is empty"},
-        {"\n\nchop box 0 0 0 1 1 1\n", "a.chips:3: \"chop\" is unknown; a line begins with chip"},
-        {"chip\n", "a.chips:1: the shape is missing; there are box, sphere"},
-        {"chip cube 0 0 0 1\n", "a.chips:1: \"cube\" is no shape; there are box, sphere"},
-        {"chip sphere 0 0 0\n", "a.chips:1: the line ends early; it is: chip sphere X Y Z R"},
-        {"fill sphere 0 0 # 0 1\n", "a.chips:1: the line ends early; it is: fill sphere X Y Z R"},
-        {"chip sphere 0 0 0 1 2\n", "a.chips:1: \"2\" is one word too many; the line is: chip sphere"},
-        {"chip sphere 0 0 zero 1\n", "a.chips:1: \"zero\" must be a finite number; the line is: chip sphere"},
-        {"chip sphere 0 0 0 1\nchip sphere 0 nan 0 1\n", "a.chips:2: \"nan\" must be a finite number"},
-        {"chip sphere 0 -inf 0 1\n", "a.chips:1: \"-inf\" must be a finite number"},
-        {"chip sphere 0 1e999 0 1\n", "a.chips:1: \"1e999\" must be a finite number"},
-        {"chip sphere 0 0 0 -1\n", "a.chips:1: a radius of the sphere is -1; must be above 0"},
-        {"depth 11\n", "a.chips:1: \"11\" must be a whole number from 0 to 10; the line is: depth N"},
-        {"depth 2.5\n", "a.chips:1: \"2.5\" must be a whole number from 0 to 10"},
-        {"depth\n", "a.chips:1: the line ends early; it is: depth N"},
-        {"depth 3\ndepth 3\n", "a.chips:2: depth a second time; line 1 has it already"},
-        {"start full\nstart full\n", "a.chips:2: start a second time"},
-        {"chip sphere 0 0 0 1\nstart full\n", "a.chips:2: start must come before the first operation"},
-        {"start half\n", "a.chips:1: full or empty is missing"},
-        {"material 0\n", "a.chips:1: \"0\" must be a whole number from 1 to 255"},
-        {"coefficient 256 1\n", "a.chips:1: \"256\" must be a whole number from 1 to 255"},
-        {"coefficient 1 1e4\n", "a.chips:1: coefficient 10000; must be within +-1000"},
-        {"coefficient 1\n", "a.chips:1: the line ends early; it is: coefficient N B"},
-        {"\x7f"
-         "ELF\2\1\n",
-         "a.chips:1: \"?ELF??\" is unknown"},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        struct error err = {0};
-        struct chips chips = {.depth = 3};
-        write_script(cases[i][0]);
-        assert_refused(chips_load("a.chips", &chips, &err), STATUS_INPUT, cases[i][1], &err);
-        assert_int_equal(chips.depth, 3);
-    }
-}
-
-static struct octree random_sculpture(uint64_t seed)
-{
-    struct error err = {0};
-    struct octree tree = new_tree(DEPTH, 1);
-    for (int i = 0; i < 30; i++) {
-        struct chip chip = random_chip((enum chip_shape)(i % CHIP_SHAPES), &seed);
-        chip.material = (unsigned)(i % 4);
-        assert_ok(sculpt_chip(&tree, &chip, &err), &err);
-    }
-    return tree;
-}
-
-static void an_exported_script_makes_an_equal_octree(void **state)
-{
-    (void)state;
-    struct error err = {0};
-    for (uint64_t seed = 1; seed < 6; seed++) {
-        struct octree tree = random_sculpture(seed);
-        tree.coefficient[2] = 0.1f;
-        assert_ok(chips_save(&tree, "a.chips", &err), &err);
-        struct octree back = replay();
-        assert_true(octree_equal(&tree, &back));
-        octree_clear(&tree);
-        octree_clear(&back);
-    }
-}
-
-static void faces_enclose_the_volume_and_have_the_area_of_the_cells(void **state)
-{
-    (void)state;
-    struct error err = {0};
-    struct octree tree = random_sculpture(9);
-    struct mesh mesh = {0};
-    assert_ok(sculpt_faces(&tree, &mesh, &err), &err);
-    struct octree_info info = octree_measure(&tree);
-    /* sums of some 10^4 terms of at most 1, each exact to 2^-53 */
-    assert_near(mesh_volume(&mesh), (double)info.cells / (SIDE * SIDE * SIDE), 1e-11);
-    assert_near(mesh_area(&mesh), (double)info.exposed_faces / (SIDE * SIDE), 1e-11);
-    mesh_clear(&mesh);
-    octree_clear(&tree);
-}
-
-/* Every edge is used as often one way as the other: no cracks, whatever the sizes of the leaves. */
-static void faces_have_no_cracks(void **state)
-{
-    (void)state;
-    struct error err = {0};
-    struct octree tree = random_sculpture(10);
-    struct mesh mesh = {0};
-    assert_ok(sculpt_faces(&tree, &mesh, &err), &err);
-    assert_ok(mesh_connect(&mesh, &err), &err);
-    int *balance = calloc(mesh.edge_count, sizeof *balance);
-    for (uint32_t t = 0; t < mesh.triangle_count; t++)
-        for (int k = 0; k < 3; k++) {
-            uint32_t edge = mesh.triangle_edge[t][k];
-            balance[edge] += mesh.triangle[t][k] == mesh.edge[edge][0] ? 1 : -1;
-        }
-    for (uint32_t edge = 0; edge < mesh.edge_count; edge++)
-        assert_int_equal(balance[edge], 0);
-    free(balance);
-    mesh_clear(&mesh);
-    octree_clear(&tree);
-}
-
-static void a_full_cube_has_twelve_triangles(void **state)
-{
-    (void)state;
-    struct error err = {0};
-    struct octree tree = new_tree(DEPTH, 1);
-    struct mesh mesh = {0};
-    assert_ok(sculpt_faces(&tree, &mesh, &err), &err);
-    assert_int_equal(mesh.point_count, 8);
-    assert_int_equal(mesh.triangle_count, 12);
-    assert_near(mesh_volume(&mesh), 1, 0);
-    mesh_clear(&mesh);
-}
-
-static void an_empty_sculpture_has_no_faces(void **state)
-{
-    (void)state;
-    struct error err = {0};
-    struct octree tree = new_tree(DEPTH, 0);
-    struct mesh mesh = {0};
-    assert_refused(sculpt_faces(&tree, &mesh, &err), STATUS_RANGE, "the sculpture is empty", &err);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -466,14 +258,6 @@ int main(void)
         cmocka_unit_test(chips_outside_the_cube_change_nothing),
         cmocka_unit_test(a_capsule_that_does_not_move_is_its_larger_sphere),
         cmocka_unit_test(what_is_no_shape_is_refused),
-        cmocka_unit_test(a_script_does_what_it_says),
-        cmocka_unit_test(a_script_without_header_carves_a_full_cube),
-        cmocka_unit_test(a_wrong_line_is_named),
-        cmocka_unit_test(an_exported_script_makes_an_equal_octree),
-        cmocka_unit_test(faces_enclose_the_volume_and_have_the_area_of_the_cells),
-        cmocka_unit_test(faces_have_no_cracks),
-        cmocka_unit_test(a_full_cube_has_twelve_triangles),
-        cmocka_unit_test(an_empty_sculpture_has_no_faces),
     };
-    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }
