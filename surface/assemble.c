@@ -53,9 +53,8 @@ static void find_middle(const struct assembly *a, const int at[3], unsigned insi
                         struct vertex *vertex)
 {
     const struct mesher *m = a->m;
-    struct probe *probe = &a->worker->probe;
     double gradient[3], outwards[3] = {1, 0, 0}, nearest = INFINITY;
-    double excess = probe_value(probe, middle, gradient) - m->threshold;
+    double excess = worker_value(a->worker, middle, gradient) - m->threshold;
     for (int corner = 0; corner < 8; corner++) {
         double place[3], point[3], slope[3];
         if ((inside >> corner & 1) == !signbit(excess))
@@ -63,7 +62,7 @@ static void find_middle(const struct assembly *a, const int at[3], unsigned insi
         for (int axis = 0; axis < 3; axis++)
             place[axis] = grid_coordinate(&m->grid,
                                           a->brick->at[axis] * BRICK + at[axis] + (corner >> axis & 1));
-        double there = probe_value(probe, place, slope) - m->threshold;
+        double there = worker_value(a->worker, place, slope) - m->threshold;
         if (signbit(there) == signbit(excess))
             continue;
         if (signbit(excess))

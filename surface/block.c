@@ -32,28 +32,62 @@ static bool make_room(double **items, size_t count, size_t *room)
     return *items;
 }
 
-bool block_move(struct block *block, const int corner[3])
+/* How many bricks along an axis share a window: gathering is paid for once for all of them, while a window much
+ * wider than the fields reach would be longer to look through for each. */
+static int bricks_that_share(const struct grid *grid)
 {
-    const struct grid *grid = block->grid;
-    double low[3], high[3];
-    for (int axis = 0; axis < 3; axis++) {
-        block->corner[axis] = corner[axis];
-        low[axis] = corner[axis] * grid->cube;
-        high[axis] = (corner[axis] + BRICK + 1) * grid->cube;
-        for (int i = 0; i < BRICK_CORNERS; i++)
-            block->profile[axis][i] = grid_profile(grid, corner[axis] + i);
-    }
-    return window_fill(&block->window, grid->field, low, high);
+    double side = BRICK * grid->cube, reach = grid->field->reach;
+    return side <= reach + 1 ? GRID_GROUP : side <= 2 * (reach + 1) ? GRID_GROUP / 2 : 1;
 }
 
-/* The sums of one row along x at all places of the block, and their slopes. */
+static bool move_window(struct block *block, const int at[3])
+{
+    int bricks = bricks_that_share(block->grid), first[3];
+    double low[3], high[3], cube = block->grid->cube;
+    bool same = block->window_bricks == bricks;
+    for (int axis = 0; axis < 3; axis++) {
+        first[axis] = at[axis] & -bricks; /* a power of 2: rounds down, also below 0 */
+        same &= first[axis] == block->window_at[axis];
+        low[axis] = first[axis] * BRICK * cube;
+        high[axis] = ((first[axis] + bricks) * BRICK + 1) * cube;
+    }
+    if (same)
+        return true;
+    memcpy(block->window_at, first, sizeof first);
+    bool filled = window_fill(&block->window, block->grid->field, low, high);
+    block->window_bricks = filled ? bricks : 0;
+    return filled;
+}
+
+bool block_move(struct block *block, const int at[3])
+{
+    const struct window *w = &block->window;
+    if (!move_window(block, at))
+        return false;
+    for (int axis = 0; axis < 3; axis++) {
+        block->corner[axis] = at[axis] * BRICK;
+        for (int i = 0; i < BRICK_CORNERS; i++)
+            block->profile[axis][i] = grid_profile(block->grid, block->corner[axis] + i);
+        int first = block->profile[axis][0].first, last = block->profile[axis][BRICK].last;
+        int end = last < w->low[axis] + w->size[axis] ? last : w->low[axis] + w->size[axis];
+        block->low[axis] = first > w->low[axis] ? first : w->low[axis];
+        block->size[axis] = end > block->low[axis] ? end - block->low[axis] : 0;
+    }
+    block->rows = (size_t)block->grid->field->layers * (size_t)block->size[1] * (size_t)block->size[2];
+    return true;
+}
+
+/* The sums of one row of the window along x at all places of the block, and their slopes. */
 static void sum_row(const struct block *block, enum field_track track, size_t row, double *sum, double *slope)
 {
     const struct window *w = &block->window;
+    int low = block->low[0], high = low + block->size[0];
     for (int i = 0; i < BLOCK_ROW; i++)
         sum[i] = slope[i] = 0;
     for (uint32_t k = w->start[row]; k < w->start[row + 1]; k++) {
         const struct window_run *run = &w->run[k];
+        if (run->end <= low || run->begin >= high)
+            continue;
         for (int i = 0; i < BRICK_CORNERS; i++) {
             const struct profile *x = &block->profile[0][i];
             int begin = profile_index(x->first, x->last, run->begin);
@@ -64,23 +98,20 @@ static void sum_row(const struct block *block, enum field_track track, size_t ro
     }
 }
 
-/* plane[y]: what the rows of one plane add up to at the block's 9 places along y. */
-static void sum_plane(const struct block *block, enum field_track track, size_t first_row,
+/* plane[y]: what the block's rows of one plane add up to at its 9 places along y. */
+static void sum_plane(const struct block *block, enum field_track track, const double *row,
                       double plane[BRICK_CORNERS][BLOCK_ROW])
 {
-    const struct window *w = &block->window;
     for (int i = 0; i < BRICK_CORNERS; i++) {
         const struct profile *y = &block->profile[1][i];
         const double *sum = y->sum[track];
-        int first = y->first > w->low[1] ? y->first : w->low[1];
-        int end = y->last < w->low[1] + w->size[1] ? y->last : w->low[1] + w->size[1];
         memset(plane[i], 0, sizeof plane[i]);
-        for (int k = first; k < end; k++) {
-            size_t row = first_row + (size_t)(k - w->low[1]);
-            if (w->start[row] == w->start[row + 1])
+        for (int k = 0; k < block->size[1]; k++) {
+            int cell = block->low[1] + k;
+            if (cell < y->first || cell >= y->last)
                 continue;
-            double share = sum[k - y->first + 1] - sum[k - y->first];
-            const double *along = block->row + row * BLOCK_ROW;
+            double share = sum[cell - y->first + 1] - sum[cell - y->first];
+            const double *along = row + k * BLOCK_ROW;
             for (int x = 0; x < BLOCK_ROW; x++)
                 plane[i][x] += share * along[x];
         }
@@ -88,14 +119,14 @@ static void sum_plane(const struct block *block, enum field_track track, size_t 
 }
 
 /* Adds a plane to all corners that it reaches. */
-static void add_plane(struct block *block, enum field_track track, int k,
+static void add_plane(struct block *block, enum field_track track, int cell,
                       double plane[BRICK_CORNERS][BLOCK_ROW])
 {
     for (int i = 0; i < BRICK_CORNERS; i++) {
         const struct profile *z = &block->profile[2][i];
-        if (k < z->first || k >= z->last)
+        if (cell < z->first || cell >= z->last)
             continue;
-        double share = z->sum[track][k - z->first + 1] - z->sum[track][k - z->first];
+        double share = z->sum[track][cell - z->first + 1] - z->sum[track][cell - z->first];
         double *value = block->values + i * BRICK_CORNERS * BRICK_CORNERS;
         for (int y = 0; y < BRICK_CORNERS; y++)
             for (int x = 0; x < BRICK_CORNERS; x++)
@@ -103,29 +134,34 @@ static void add_plane(struct block *block, enum field_track track, int k,
     }
 }
 
+static bool make_rooms(struct block *block)
+{
+    int longest = 0;
+    for (int axis = 0; axis < 3; axis++)
+        longest = block->size[axis] > longest ? block->size[axis] : longest;
+    return make_room(&block->row, 2 * block->rows * BLOCK_ROW, &block->row_room) &&
+           make_room(&block->line, (size_t)(FIELD_LAYERS * 3 * longest), &block->line_room);
+}
+
 bool block_sample(struct block *block)
 {
     const struct window *w = &block->window;
     const struct field *field = block->grid->field;
-    int longest = 0;
-    for (int axis = 0; axis < 3; axis++)
-        longest = w->size[axis] > longest ? w->size[axis] : longest;
-    if (!make_room(&block->row, 2 * w->rows * BLOCK_ROW, &block->row_room) ||
-        !make_room(&block->line, (size_t)(FIELD_LAYERS * 3 * longest), &block->line_room))
+    if (!make_rooms(block))
         return false;
     memset(block->values, 0, sizeof block->values);
-    size_t row = 0;
+    double *row = block->row, plane[BRICK_CORNERS][BLOCK_ROW];
     for (int layer = 0; layer < field->layers; layer++)
-        for (int z = 0; z < w->size[2]; z++) {
-            size_t first = row;
-            double plane[BRICK_CORNERS][BLOCK_ROW];
-            for (int y = 0; y < w->size[1]; y++, row++)
-                sum_row(block, field->layer[layer].track[0], row, block->row + row * BLOCK_ROW,
-                        block->row + (w->rows + row) * BLOCK_ROW);
-            if (w->start[first] == w->start[row])
+        for (int z = 0; z < block->size[2]; z++) {
+            const enum field_track *track = field->layer[layer].track;
+            const double *first = row;
+            size_t begin = window_row(w, layer, block->low[1], block->low[2] + z);
+            for (int y = 0; y < block->size[1]; y++, row += BLOCK_ROW)
+                sum_row(block, track[0], begin + (size_t)y, row, row + block->rows * BLOCK_ROW);
+            if (w->start[begin] == w->start[begin + (size_t)block->size[1]])
                 continue;
-            sum_plane(block, field->layer[layer].track[1], first, plane);
-            add_plane(block, field->layer[layer].track[2], w->low[2] + z, plane);
+            sum_plane(block, track[1], first, plane);
+            add_plane(block, track[2], block->low[2] + z, plane);
         }
     return true;
 }

@@ -3,7 +3,7 @@
  *
  *     struct block block;
  *     if (block_init(&block, &grid)) ...                       one for each thread
- *     if (block_move(&block, corner)) ...                      gathers the fields around
+ *     if (block_move(&block, at)) ...                          gathers the fields around
  *     if (block_sample(&block)) ...                            block.values
  *     struct line line = block_line(&block, axis, at);
  *     value = line_value(&line, x, &slope);
@@ -29,11 +29,13 @@ enum {
 struct block {
     const struct grid *grid; /* borrowed */
     int corner[3];
-    struct window window;
+    struct window window;            /* around some blocks that lie together */
+    int window_at[3], window_bricks; /* the first of these bricks, in bricks; how many along an axis, or 0 */
     struct profile profile[3][BRICK_CORNERS]; /* of the block's lines */
-    double *row;                              /* [2][window.rows][BLOCK_ROW] sums along x, their slopes */
-    double *line;                             /* [FIELD_LAYERS][3][longest side of the window] */
-    size_t row_room, line_room;
+    int low[3], size[3];                      /* the cells, and planes, of the window that reach the block */
+    double *row;  /* [2][layer][size[2]][size[1]][BLOCK_ROW] sums along x, their slopes */
+    double *line; /* [layer][3][longest of size] */
+    size_t rows, row_room, line_room;
     struct profiles profiles;    /* of the point or edge at hand */
     double values[BLOCK_VALUES]; /* x fastest */
 };
@@ -42,9 +44,9 @@ struct block {
 bool block_init(struct block *block, const struct grid *grid);
 void block_clear(struct block *block);
 
-/* Gathers the fields around the block whose lowest corner this is, up to half a cube beyond. False when there is
- * no memory. */
-bool block_move(struct block *block, const int corner[3]);
+/* Moves to the brick at this place, in bricks, and gathers the fields around it, up to half a cube beyond, unless
+ * those around a brick near by still do. False when there is no memory. */
+bool block_move(struct block *block, const int at[3]);
 
 /* Fills block->values. The same corner gets the same bits in any block, and from a probe. False when there is no
  * memory. */

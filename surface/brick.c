@@ -31,8 +31,7 @@ static bool is_one_sided(const struct mesher *m, struct worker *worker, const in
         return false;
     for (int axis = 0; axis < 3; axis++)
         middle[axis] = grid_coordinate(&m->grid, at[axis] * BRICK + BRICK / 2);
-    worker->evaluations++;
-    return fabs(block_value(&worker->block, middle, gradient) - m->threshold) > most;
+    return fabs(worker_value(worker, middle, gradient) - m->threshold) > most;
 }
 
 /* The signs of the values; false when they are all the same. */
@@ -84,7 +83,7 @@ static unsigned faces_joined(const struct mesher *m, struct worker *worker, cons
             bool across = axis == face / 2;
             middle[axis] = across ? grid_coordinate(&m->grid, line + face % 2) : (line + 1) * m->grid.cube;
         }
-        joined |= (unsigned)(probe_value(&worker->probe, middle, gradient) >= m->threshold) << face;
+        joined |= (unsigned)(worker_value(worker, middle, gradient) >= m->threshold) << face;
     }
     return joined;
 }
@@ -123,24 +122,40 @@ static void count_triangles(const struct mesher *m, struct worker *worker, struc
         }
 }
 
+double worker_value(struct worker *worker, const double point[3], double gradient[3])
+{
+    if (!worker->in_block)
+        return probe_value(&worker->probe, point, gradient);
+    worker->evaluations++;
+    return block_value(&worker->block, point, gradient);
+}
+
+/* What the worker's block, moved to the brick, holds; false when the surface does not pass through it. */
+static bool find_contents(const struct mesher *m, struct worker *worker, struct brick *brick)
+{
+    if (is_one_sided(m, worker, brick->at))
+        return false;
+    worker->failed |= !block_sample(&worker->block);
+    worker->samples += BLOCK_VALUES;
+    if (worker->failed || !find_signs(m, worker->block.values, brick))
+        return false;
+    find_crossed_edges(brick);
+    count_triangles(m, worker, brick);
+    if (!m->count_only)
+        brick_find_vertices(m, worker, brick);
+    return true;
+}
+
 void brick_make(const struct mesher *m, struct worker *worker, const int at[3])
 {
     struct brick brick = {.at = {at[0], at[1], at[2]}, .code = brick_code(&m->grid, at)};
-    int corner[3] = {at[0] * BRICK, at[1] * BRICK, at[2] * BRICK};
-    worker->failed |= worker->failed || !block_move(&worker->block, corner);
-    if (worker->failed || is_one_sided(m, worker, at))
+    worker->failed |= worker->failed || !block_move(&worker->block, at);
+    if (worker->failed)
         return;
-    worker->failed |= !block_sample(&worker->block);
-    worker->samples += BLOCK_VALUES;
-    if (worker->failed || !find_signs(m, worker->block.values, &brick))
-        return;
-    find_crossed_edges(&brick);
-    count_triangles(m, worker, &brick);
-    if (!m->count_only)
-        brick_find_vertices(m, worker, &brick);
-    if (!ARRAY_RESERVE(&worker->bricks, 1)) {
-        worker->failed = true;
-        return;
-    }
-    worker->bricks.items[worker->bricks.count++] = brick;
+    worker->in_block = true;
+    bool crossed = find_contents(m, worker, &brick);
+    worker->in_block = false;
+    worker->failed |= crossed && !ARRAY_RESERVE(&worker->bricks, 1);
+    if (crossed && !worker->failed)
+        worker->bricks.items[worker->bricks.count++] = brick;
 }

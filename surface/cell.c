@@ -1,8 +1,5 @@
 #include "surface/cell.h"
 
-#include "common/vec3.h"
-
-#include <math.h>
 #include <string.h>
 
 static int edge_between(int p, int q)
@@ -95,17 +92,34 @@ void cell_table_make(struct cell_table *table)
     }
 }
 
-/* The cosine of a triangle's smallest angle: the largest of the three. */
-static double sharpness(const double a[3], const double b[3], const double c[3])
+static double square_distance(const double a[3], const double b[3])
 {
-    double ab = vec3_distance(a, b), bc = vec3_distance(b, c), ca = vec3_distance(c, a);
-    double p = (ab * ab + ca * ca - bc * bc) / (2 * ab * ca),
-           q = (ab * ab + bc * bc - ca * ca) / (2 * ab * bc);
-    double r = (bc * bc + ca * ca - ab * ab) / (2 * bc * ca);
-    return fmax(p, fmax(q, r));
+    double x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2];
+    return x * x + y * y + z * z;
 }
 
-/* best[i][j]: the sharpest angle's cosine in the best triangulation of the part of the loop from i to j;
+/* The squared cosine of a triangle's smallest angle, that opposite its shortest side, from the squares of its
+ * sides: below 60 degrees a sharper angle's is larger. */
+static double sharpness(double p, double q, double r)
+{
+    double swap = r;
+    if (p < r && p <= q) {
+        r = p;
+        p = swap;
+    } else if (q < r) {
+        r = q;
+        q = swap;
+    }
+    double twice = p + q - r;
+    return p * q > 0 ? twice * twice / (4 * p * q) : 1;
+}
+
+static double sharper(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* best[i][j]: the sharpest angle's measure in the best triangulation of the part of the loop from i to j;
  * apex[i][j]: the corner of the triangle on its chord. Klincsek's dynamic programme ("Minimal
  * triangulations of polygonal domains", 1980) with the smallest angle for a measure. */
 struct plan {
@@ -116,10 +130,12 @@ struct plan {
 static void plan_chord(struct plan *plan, const double place[][3], int i, int j)
 {
     for (int k = i + 1; k < j; k++) {
-        double worse = fmax(plan->best[i][k], plan->best[k][j]);
+        double worse = sharper(plan->best[i][k], plan->best[k][j]);
         if (worse >= plan->best[i][j])
             continue;
-        double cost = fmax(worse, sharpness(place[i], place[k], place[j]));
+        double cost = sharper(worse, sharpness(square_distance(place[i], place[k]),
+                                               square_distance(place[k], place[j]),
+                                               square_distance(place[j], place[i])));
         if (cost < plan->best[i][j]) {
             plan->best[i][j] = cost;
             plan->apex[i][j] = (uint8_t)k;
@@ -139,16 +155,34 @@ static int read_plan(const struct plan *plan, int i, int j, uint8_t triangles[][
     return read_plan(plan, k, j, triangles, count);
 }
 
+/* The same for four vertices, which most loops have: a choice between two chords. */
+static int triangulate_four(const struct cell_table *table, const uint8_t *edges, const double place[][3],
+                            uint8_t triangles[][3])
+{
+    static const uint8_t cuts[2][2][3] = {{{0, 1, 3}, {1, 2, 3}}, {{0, 2, 3}, {0, 1, 2}}};
+    double side[4], odd = square_distance(place[1], place[3]), even = square_distance(place[0], place[2]);
+    for (int i = 0; i < 4; i++)
+        side[i] = square_distance(place[i], place[(i + 1) % 4]);
+    bool odd_ok = !(table->faces[edges[1]] & table->faces[edges[3]]);
+    bool even_ok = !(table->faces[edges[0]] & table->faces[edges[2]]);
+    double by_odd = sharper(sharpness(side[3], side[0], odd), sharpness(side[1], side[2], odd));
+    double by_even = sharper(sharpness(side[0], side[1], even), sharpness(side[2], side[3], even));
+    memcpy(triangles, cuts[!odd_ok || (even_ok && by_even < by_odd)], sizeof cuts[0]);
+    return 2;
+}
+
 int cell_triangulate(const struct cell_table *table, const uint8_t *edges, int length,
                      const double place[][3], uint8_t triangles[][3])
 {
-    /* Above any cosine, so that a flat triangle is still better than none. */
+    /* Above any squared cosine, so that a flat triangle is still better than none. */
     const double allowed = 2, forbidden = 3;
     struct plan plan;
     if (length == 3) {
         memcpy(triangles[0], (uint8_t[3]){0, 1, 2}, 3);
         return 1;
     }
+    if (length == 4)
+        return triangulate_four(table, edges, place, triangles);
     for (int i = 0; i + 1 < length; i++)
         plan.best[i][i + 1] = -1;
     for (int span = 2; span < length; span++)

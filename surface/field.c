@@ -121,14 +121,16 @@ enum status field_init(struct field *field, const struct octree *tree, const str
 static void fill_continuum(const struct field *field, double x, struct profile *profile)
 {
     double *sum = profile->sum[TRACK_VOLUME], *slope = profile->slope[TRACK_VOLUME];
+    double per_sigma = 1 / field->sigma;
     for (int plane = profile->first; plane <= profile->last; plane++, sum++, slope++) {
         double t = plane - x;
-        *sum = copysign(0.5, t);
-        *slope = 0;
-        if (fabs(t) >= field->reach)
-            continue;
-        *sum = distribution_value(&field->distribution, t / field->sigma, slope);
-        *slope /= -field->sigma;
+        if (fabs(t) < field->reach) {
+            *sum = distribution_value(&field->distribution, t * per_sigma, slope);
+            *slope *= -per_sigma;
+        } else {
+            *sum = copysign(0.5, t);
+            *slope = 0;
+        }
     }
 }
 
@@ -155,16 +157,17 @@ static void fill_lattice(const struct field *field, double x, const struct field
     }
 }
 
-static int clamp_plane(const struct field *field, double plane)
+/* floor(x), kept to the planes there are. Without a call of the library's, which would be the slowest part. */
+static int plane_below(const struct field *field, double x)
 {
-    return (int)fmin(fmax(plane, 0), field->side + 1);
+    return x < 0 ? 0 : x > field->side + 1 ? field->side + 1 : (int)x;
 }
 
 /* No lattice point within reach lies below plane `first`, nor at or above plane `last`. */
 void profile_fill(const struct field *field, double x, struct profile *profile)
 {
-    profile->first = clamp_plane(field, floor(x - field->reach));
-    profile->last = clamp_plane(field, floor(x + field->reach) + 1);
+    profile->first = plane_below(field, x - field->reach);
+    profile->last = plane_below(field, x + field->reach + 1);
     for (int track = 0; track < FIELD_TRACKS; track++) {
         const struct field_lattice *lattice = &field->lattice[track];
         if (lattice->used && lattice->spacing == 0)

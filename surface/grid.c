@@ -11,15 +11,17 @@ static int floor_divide(double value, int by)
     return (int)floor(value / by);
 }
 
-/* Bricks around all corners that the field reaches, with at least one corner to spare on each side. */
+/* Bricks around all corners that the field reaches, with at least one corner to spare on each side, in groups of
+ * GRID_GROUP along each axis. */
 static void find_bounds(struct grid *grid)
 {
     struct octree_info info = octree_measure(grid->field->tree);
     for (int axis = 0; axis < 3; axis++) {
         double low = (info.low[axis] - grid->field->reach) / grid->cube - 0.5;
         double high = (info.high[axis] + 1 + grid->field->reach) / grid->cube - 0.5;
-        grid->brick_low[axis] = floor_divide(floor(low) - 1, BRICK);
-        grid->brick_high[axis] = floor_divide(ceil(high) + 1, BRICK);
+        grid->brick_low[axis] = floor_divide(floor(low) - 1, BRICK * GRID_GROUP) * GRID_GROUP;
+        grid->brick_high[axis] = floor_divide(ceil(high) + 1, BRICK * GRID_GROUP) * GRID_GROUP + GRID_GROUP -
+                                 1;
     }
 }
 
@@ -49,7 +51,7 @@ static bool tabulate(struct grid *grid)
 enum status grid_init(struct grid *grid, const struct field *field, double cube, struct error *err)
 {
     *grid = (struct grid){.field = field, .cube = cube};
-    if ((field->side + 2 * field->reach) / cube > GRID_LINES_MAX - 4 * BRICK)
+    if ((field->side + 2 * field->reach) / cube > GRID_LINES_MAX - 4 * BRICK * GRID_GROUP)
         return error_set(err, STATUS_RANGE,
                          "a cube size of %g is too small: more than %d cubes in a row; %.3g works",
                          cube / field->side, GRID_LINES_MAX,

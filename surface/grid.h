@@ -19,6 +19,7 @@
 enum {
     BRICK = 8,
     BRICK_CORNERS = BRICK + 1,
+    GRID_GROUP = 4,           /* bricks along an axis that are worked on together: a power of 2 */
     GRID_LINES_MAX = 1 << 20, /* along an axis; keeps a brick's Morton code below 64 bits */
 };
 

@@ -6,14 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The cells of a window that a profile has sums for, along one axis. */
+/* The cells of a block that a profile has sums for, along one axis. */
 struct band {
     int first, end;
 };
 
-static struct band band_of(const struct window *w, const struct profile *profile, int axis)
+static struct band band_of(const struct block *block, const struct profile *profile, int axis)
 {
-    int first = w->low[axis], end = first + w->size[axis];
+    int first = block->low[axis], end = first + block->size[axis];
     return (struct band){profile->first > first ? profile->first : first,
                          profile->last < end ? profile->last : end};
 }
@@ -26,18 +26,15 @@ static double step(const double *sum, const struct profile *profile, int cell)
 /* Along z: rows are added up along y. */
 static void sum_along_z(const struct block *block, const int at[3], int layer, double *out)
 {
-    const struct window *w = &block->window;
     const struct profile *y = &block->profile[1][at[1]];
     enum field_track track = block->grid->field->layer[layer].track[1];
-    struct band band = band_of(w, y, 1);
-    size_t size = (size_t)w->size[2], slopes = w->rows * BLOCK_ROW;
+    struct band band = band_of(block, y, 1);
+    size_t size = (size_t)block->size[2], width = (size_t)block->size[1], slopes = block->rows * BLOCK_ROW;
     for (int j = band.first; j < band.end; j++) {
         double share = step(y->sum[track], y, j), slope = step(y->slope[track], y, j);
-        const double *row = block->row +
-                            ((size_t)layer * size * (size_t)w->size[1] + (size_t)(j - w->low[1])) *
-                                BLOCK_ROW +
-                            at[0];
-        for (size_t k = 0; k < size; k++, row += w->size[1] * BLOCK_ROW) {
+        size_t first = (size_t)layer * size * width + (size_t)(j - block->low[1]);
+        const double *row = block->row + first * BLOCK_ROW + at[0];
+        for (size_t k = 0; k < size; k++, row += width * BLOCK_ROW) {
             out[k] += share * *row;
             out[size + k] += share * row[slopes];
             out[2 * size + k] += slope * *row;
@@ -48,15 +45,14 @@ static void sum_along_z(const struct block *block, const int at[3], int layer, d
 /* Along y: rows are added up along z. */
 static void sum_along_y(const struct block *block, const int at[3], int layer, double *out)
 {
-    const struct window *w = &block->window;
     const struct profile *z = &block->profile[2][at[2]];
     enum field_track track = block->grid->field->layer[layer].track[2];
-    struct band band = band_of(w, z, 2);
-    size_t size = (size_t)w->size[1], slopes = w->rows * BLOCK_ROW;
+    struct band band = band_of(block, z, 2);
+    size_t size = (size_t)block->size[1], slopes = block->rows * BLOCK_ROW;
     for (int k = band.first; k < band.end; k++) {
         double share = step(z->sum[track], z, k), slope = step(z->slope[track], z, k);
-        const double *row = block->row + (size_t)(layer * w->size[2] + k - w->low[2]) * size * BLOCK_ROW +
-                            at[0];
+        size_t first = (size_t)(layer * block->size[2] + k - block->low[2]) * size;
+        const double *row = block->row + first * BLOCK_ROW + at[0];
         for (size_t j = 0; j < size; j++, row += BLOCK_ROW) {
             out[j] += share * *row;
             out[size + j] += slope * *row;
@@ -66,14 +62,15 @@ static void sum_along_y(const struct block *block, const int at[3], int layer, d
 }
 
 /* Adds a row's runs, times `share`, as what changes at their ends. */
-static void add_row(const struct window *w, size_t row, const double share[3], double *out)
+static void add_row(const struct block *block, size_t row, const double share[3], double *out)
 {
-    int size = w->size[0];
+    const struct window *w = &block->window;
+    int size = block->size[0];
     for (uint32_t i = w->start[row]; i < w->start[row + 1]; i++) {
         const struct window_run *run = &w->run[i];
-        int begin = run->begin - w->low[0], end = run->end - w->low[0];
+        int begin = run->begin - block->low[0], end = run->end - block->low[0];
         begin = begin < 0 ? 0 : begin;
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3 && begin < size && end > 0; k++) {
             out[k * size + begin] += share[k] * run->weight;
             if (end < size)
                 out[k * size + end] -= share[k] * run->weight;
@@ -84,27 +81,26 @@ static void add_row(const struct window *w, size_t row, const double share[3], d
 /* Along x: whole rows are added up, as changes from cell to cell first. */
 static void sum_along_x(const struct block *block, const int at[3], int layer, double *out)
 {
-    const struct window *w = &block->window;
     const struct profile *y = &block->profile[1][at[1]], *z = &block->profile[2][at[2]];
     const enum field_track *track = block->grid->field->layer[layer].track;
-    struct band along_y = band_of(w, y, 1), along_z = band_of(w, z, 2);
+    struct band along_y = band_of(block, y, 1), along_z = band_of(block, z, 2);
     for (int k = along_z.first; k < along_z.end; k++) {
         double share_z = step(z->sum[track[2]], z, k), slope_z = step(z->slope[track[2]], z, k);
-        size_t row = (size_t)(layer * w->size[2] + k - w->low[2]) * (size_t)w->size[1];
-        for (int j = along_y.first; j < along_y.end; j++) {
+        size_t row = window_row(&block->window, layer, along_y.first, k);
+        for (int j = along_y.first; j < along_y.end; j++, row++) {
             double share_y = step(y->sum[track[1]], y, j), slope_y = step(y->slope[track[1]], y, j);
             double share[3] = {share_z * share_y, share_z * slope_y, slope_z * share_y};
-            add_row(w, row + (size_t)(j - w->low[1]), share, out);
+            add_row(block, row, share, out);
         }
     }
-    for (int k = 0; k < 3; k++, out += w->size[0])
-        for (int i = 1; i < w->size[0]; i++)
+    for (int k = 0; k < 3; k++, out += block->size[0])
+        for (int i = 1; i < block->size[0]; i++)
             out[i] += out[i - 1];
 }
 
 struct line block_line(struct block *block, int axis, const int at[3])
 {
-    struct line line = {block, axis, block->window.size[axis], block->line};
+    struct line line = {block, axis, block->size[axis], block->line};
     int layers = block->grid->field->layers;
     memset(line.sum, 0, (size_t)(layers * 3 * line.size) * sizeof *line.sum);
     for (int layer = 0; layer < layers; layer++) {
@@ -121,32 +117,32 @@ struct line block_line(struct block *block, int axis, const int at[3])
 
 static double derivative(const struct line *line, const struct profile *profile)
 {
-    const struct window *w = &line->block->window;
-    struct band band = band_of(w, profile, line->axis);
+    const struct block *block = line->block;
+    struct band band = band_of(block, profile, line->axis);
     double slope = 0;
-    for (int layer = 0; layer < w->field->layers; layer++) {
-        enum field_track track = w->field->layer[layer].track[line->axis];
+    for (int layer = 0; layer < block->grid->field->layers; layer++) {
+        enum field_track track = block->grid->field->layer[layer].track[line->axis];
         const double *sum = line->sum + layer * 3 * line->size;
         for (int i = band.first; i < band.end; i++)
-            slope += sum[i - w->low[line->axis]] * step(profile->slope[track], profile, i);
+            slope += sum[i - block->low[line->axis]] * step(profile->slope[track], profile, i);
     }
     return slope;
 }
 
 double line_value(const struct line *line, double x, double *slope)
 {
-    const struct window *w = &line->block->window;
+    const struct block *block = line->block;
     struct profile *profile = &line->block->profiles.axis[line->axis];
-    profile_fill(w->field, x, profile);
-    struct band band = band_of(w, profile, line->axis);
+    profile_fill(block->grid->field, x, profile);
+    struct band band = band_of(block, profile, line->axis);
     double value = 0;
     *slope = 0;
-    for (int layer = 0; layer < w->field->layers; layer++) {
-        enum field_track track = w->field->layer[layer].track[line->axis];
+    for (int layer = 0; layer < block->grid->field->layers; layer++) {
+        enum field_track track = block->grid->field->layer[layer].track[line->axis];
         const double *sum = line->sum + layer * 3 * line->size;
         for (int i = band.first; i < band.end; i++) {
-            value += sum[i - w->low[line->axis]] * step(profile->sum[track], profile, i);
-            *slope += sum[i - w->low[line->axis]] * step(profile->slope[track], profile, i);
+            value += sum[i - block->low[line->axis]] * step(profile->sum[track], profile, i);
+            *slope += sum[i - block->low[line->axis]] * step(profile->slope[track], profile, i);
         }
     }
     return value;
@@ -154,17 +150,17 @@ double line_value(const struct line *line, double x, double *slope)
 
 void line_gradient(const struct line *line, double slope, double gradient[3])
 {
-    const struct window *w = &line->block->window;
-    const struct profile *profile = &line->block->profiles.axis[line->axis];
-    struct band band = band_of(w, profile, line->axis);
+    const struct block *block = line->block;
+    const struct profile *profile = &block->profiles.axis[line->axis];
+    struct band band = band_of(block, profile, line->axis);
     double across[2] = {0, 0};
-    for (int layer = 0; layer < w->field->layers; layer++) {
-        enum field_track track = w->field->layer[layer].track[line->axis];
+    for (int layer = 0; layer < block->grid->field->layers; layer++) {
+        enum field_track track = block->grid->field->layer[layer].track[line->axis];
         const double *sum = line->sum + (layer * 3 + 1) * line->size;
         for (int i = band.first; i < band.end; i++) {
             double share = step(profile->sum[track], profile, i);
-            across[0] += sum[i - w->low[line->axis]] * share;
-            across[1] += sum[line->size + i - w->low[line->axis]] * share;
+            across[0] += sum[i - block->low[line->axis]] * share;
+            across[1] += sum[line->size + i - block->low[line->axis]] * share;
         }
     }
     gradient[line->axis] = slope;

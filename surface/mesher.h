@@ -73,6 +73,7 @@ struct worker {
     bool failed;  /* memory ran out */
     uint64_t samples, evaluations;
     double worst_residual;
+    bool in_block; /* all points asked for lie in the block: no need for a probe's own windows */
 };
 
 struct cell_at {
@@ -147,6 +148,9 @@ const struct cell_loops *cell_loops_of(const struct mesher *m, struct worker *wo
 
 /* Finds the vertices of a brick that the worker's block has just sampled. */
 void brick_find_vertices(const struct mesher *m, struct worker *worker, struct brick *brick);
+
+/* The field at a point in cells, and its gradient. */
+double worker_value(struct worker *worker, const double point[3], double gradient[3]);
 
 /* The point where the field passes the threshold between two points, one inside (excess f - T >= 0), one
  * outside. In the octree's cells; gradient is the field's there. */

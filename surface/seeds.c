@@ -184,7 +184,7 @@ static bool left_out(const struct mesher *m, struct worker *worker, const struct
     return in_one_material(m, bounds, start, end) || (!single && far_from_threshold(m, worker, start, end));
 }
 
-/* Halves a box across its longest axis. */
+/* Halves a box across its longest axis, between groups where it has several. */
 static void halve(const struct box *box, struct box half[2])
 {
     int axis = 0;
@@ -192,8 +192,9 @@ static void halve(const struct box *box, struct box half[2])
         if (box->high[k] - box->low[k] > box->high[axis] - box->low[axis])
             axis = k;
     half[0] = half[1] = *box;
-    half[0].high[axis] = box->low[axis] + (box->high[axis] - box->low[axis]) / 2;
-    half[1].low[axis] = half[0].high[axis] + 1;
+    int bricks = (box->high[axis] - box->low[axis] + 1) / 2;
+    half[1].low[axis] = box->low[axis] + (bricks > GRID_GROUP ? bricks & -GRID_GROUP : bricks);
+    half[0].high[axis] = half[1].low[axis] - 1;
 }
 
 static bool is_longer_than(const struct box *box, int bricks)
@@ -231,14 +232,14 @@ struct descent {
     atomic_size_t done;
 };
 
-/* Cuts a box into jobs; what can be left out is. */
+/* Cuts a box into jobs, groups of bricks: a millisecond or so of work, so that workers end together. What can be
+ * left out is. */
 static void plan(struct descent *d, const struct box *box)
 {
-    enum { JOB = 4 }; /* bricks along an axis: some milliseconds of work, so that workers end together */
     struct mesher *m = d->m;
     if (m->failed || left_out(m, m->worker[0], &d->bounds, box))
         return;
-    if (is_longer_than(box, JOB)) {
+    if (is_longer_than(box, GRID_GROUP)) {
         struct box half[2];
         halve(box, half);
         plan(d, &half[0]);

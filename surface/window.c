@@ -16,11 +16,6 @@ static int smaller(int a, int b)
     return a < b ? a : b;
 }
 
-static size_t row_number(const struct window *w, int layer, int y, int z)
-{
-    return ((size_t)(layer * w->size[2] + z - w->low[2])) * (size_t)w->size[1] + (size_t)(y - w->low[1]);
-}
-
 static bool push(struct window *w, size_t row, struct window_run run)
 {
     if (!ARRAY_RESERVE(&w->pending, 1))
@@ -39,7 +34,7 @@ static bool push_box(struct window *w, const struct octree_leaf *leaf)
     int y_end = smaller(leaf->y + leaf->side, w->low[1] + w->size[1] - 1);
     int z_end = smaller(leaf->z + leaf->side, w->low[2] + w->size[2] - 1);
     for (int z = z_first; z < z_end; z++) {
-        size_t row = row_number(w, 0, y_first, z);
+        size_t row = window_row(w, 0, y_first, z);
         for (int y = y_first; y < y_end; y++, row++) {
             struct window_run *before = w->last[row] ? &w->pending.items[w->last[row] - 1].run : NULL;
             if (before && before->end == run.begin && before->weight == run.weight)
@@ -63,7 +58,7 @@ static bool push_row(struct window *w, const struct face *face, int begin, int e
 {
     int cell[3] = {begin, y, z};
     cell[face->axis] = face->outside;
-    size_t row = row_number(w, face->layer, face->axis == 1 ? face->plane : y,
+    size_t row = window_row(w, face->layer, face->axis == 1 ? face->plane : y,
                             face->axis == 2 ? face->plane : z);
     int first = begin;
     for (bool open = false; begin <= end; begin++) {
@@ -82,7 +77,7 @@ static bool push_cell_across_x(struct window *w, const struct face *face, int y,
 {
     struct window_run run = {face->weight, (int16_t)face->plane, (int16_t)(face->plane + 1)};
     return octree_at(w->field->tree, face->outside, y, z) != 0 ||
-           push(w, row_number(w, face->layer, y, z), run);
+           push(w, window_row(w, face->layer, y, z), run);
 }
 
 /* The exposed part of a leaf's face, as far as it is in the window. */
@@ -218,7 +213,7 @@ static struct plane_sum sum_plane(const struct window *w, int layer, int z, cons
     const double *sum = axis[1].sum[track[1]], *slope = axis[1].slope[track[1]];
     int first = larger(axis[1].first, w->low[1]), end = smaller(axis[1].last, w->low[1] + w->size[1]);
     for (int y = first; y < end; y++) {
-        size_t row = row_number(w, layer, y, z);
+        size_t row = window_row(w, layer, y, z);
         if (w->start[row] == w->start[row + 1])
             continue;
         int i = y - axis[1].first;

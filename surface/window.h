@@ -36,6 +36,12 @@ struct window {
     } pending;
 };
 
+static inline size_t window_row(const struct window *window, int layer, int y, int z)
+{
+    return (size_t)(layer * window->size[2] + z - window->low[2]) * (size_t)window->size[1] +
+           (size_t)(y - window->low[1]);
+}
+
 /* Gathers all fields that reach some point of low .. high. *window is {0} or was filled before. False when
  * there is no memory; it can be filled again. */
 bool window_fill(struct window *window, const struct field *field, const double low[3], const double high[3]);

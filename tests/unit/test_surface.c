@@ -142,7 +142,7 @@ static size_t crossings(const struct octree *tree, const struct surface_options 
     for (int x = grid.brick_low[0]; x <= grid.brick_high[0]; x++)
         for (int y = grid.brick_low[1]; y <= grid.brick_high[1]; y++)
             for (int z = grid.brick_low[2]; z <= grid.brick_high[2]; z++) {
-                assert_true(block_move(&block, (int[3]){8 * x, 8 * y, 8 * z}) && block_sample(&block));
+                assert_true(block_move(&block, (int[3]){x, y, z}) && block_sample(&block));
                 for (int i = 0; i < 512; i++) {
                     const double *v = block.values + (i >> 6) * 81 + (i >> 3 & 7) * 9 + (i & 7);
                     bool inside = *v >= options->threshold;
@@ -441,6 +441,27 @@ static void the_cube_size_that_a_refusal_names_works(void **state)
     octree_clear(&tree);
 }
 
+static void a_mesh_is_the_same_to_the_byte_for_any_number_of_threads(void **state)
+{
+    (void)state;
+    uint64_t seed = 99;
+    for (int i = 0; i < 4; i++) {
+        struct octree tree = random_tree(3, &seed);
+        struct surface_options options = surface_defaults();
+        options.cube_size = 0.03 + 0.02 * random_unit(&seed);
+        options.threshold = 0.3;
+        options.threads = 1;
+        struct mesh alone = make(&tree, &options);
+        for (options.threads = 2; options.threads < 8; options.threads += 2) {
+            struct mesh shared = make(&tree, &options);
+            assert_same(&alone, &shared);
+            mesh_clear(&shared);
+        }
+        mesh_clear(&alone);
+        octree_clear(&tree);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -450,6 +471,7 @@ int main(void)
         cmocka_unit_test(a_tunnel_makes_a_torus),
         cmocka_unit_test(random_sculptures_are_closed_whole_and_independent_of_seeds),
         cmocka_unit_test(ambiguous_cells_stay_closed_on_a_coarse_grid),
+        cmocka_unit_test(a_mesh_is_the_same_to_the_byte_for_any_number_of_threads),
         cmocka_unit_test(a_grid_plane_on_the_surface_does_no_harm),
         cmocka_unit_test(materials_weigh_by_their_coefficient),
         cmocka_unit_test(area_fields_alone_make_a_shell_with_two_skins),
