@@ -101,8 +101,8 @@ static void measure_edges(const struct sim *sim, struct sim_measures *m)
 {
     for (uint32_t e = 0; e < sim->edge_count; e++)
         if (sim->edge_active[e]) {
-            const double length = sim_edge_length(sim, e), stretched = length - sim->rest_length[e];
-            m->elastic_energy += sim->current_spring_const[e] * stretched * stretched / 2;
+            const double length = sim_edge_length(sim, e);
+            m->elastic_energy += sim_spring_energy(sim, e);
             if (sim->rest_length[e] > 0)
                 m->max_stretch = fmax(m->max_stretch, length / sim->rest_length[e]);
             m->edges_active++;

@@ -1,6 +1,7 @@
 #include "sim/run.h"
 #include "common/command.h"
 #include "sim/film.h"
+#include "sim/ledger.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -47,7 +48,9 @@ static enum status open_outputs(struct outputs *outputs, const struct options *o
                                 struct error *err)
 {
     if (options->log) {
-        enum status status = sim_log_open(options->log, &outputs->log, err);
+        enum status status = ledger_open(sim, err);
+        if (!status)
+            status = sim_log_open(options->log, &outputs->log, err);
         if (status)
             return status;
     }

@@ -1,8 +1,20 @@
 /* "The user can change the time interval or the internal air pressure between any time steps" (paper 3.5). */
 #include "common/scene_fields.h"
-#include "sim/sim.h"
+#include "sim/ledger.h"
 
 #include <string.h>
+
+/* Springs that are stretched hold more, or less, from one moment to the next: the user's work. */
+static void change_springs(struct sim *sim, struct sim_balloon *balloon, double factor)
+{
+    const uint32_t begin = balloon->edge_begin, end = balloon->edge_end;
+    const double before = sim->ledger.on ? ledger_elastic(sim, begin, end) : 0;
+    balloon->now->spring_factor = factor;
+    for (uint32_t e = begin; e < end; e++)
+        sim->current_spring_const[e] = sim->init_spring_const[e] * factor;
+    if (sim->ledger.on)
+        sim->ledger.account.user += ledger_elastic(sim, begin, end) - before;
+}
 
 static void change_balloon(struct sim *sim, struct sim_balloon *balloon, const char *key, double value)
 {
@@ -13,9 +25,7 @@ static void change_balloon(struct sim *sim, struct sim_balloon *balloon, const c
     } else if (!strcmp(key, "threshold")) {
         balloon->now->threshold_length = value * balloon->mean_rest_length;
     } else if (!strcmp(key, "spring_factor")) {
-        balloon->now->spring_factor = value;
-        for (uint32_t e = balloon->edge_begin; e < balloon->edge_end; e++)
-            sim->current_spring_const[e] = sim->init_spring_const[e] * value;
+        change_springs(sim, balloon, value);
     }
 }
 

@@ -120,6 +120,17 @@ struct effect_hook {
     struct sim_balloon *balloon;
 };
 
+/* The energy's accounts (ledger.h). */
+struct sim_ledger {
+    bool on;
+    uint32_t first; /* of its own scalars, the last ones: they only record; the state are those before */
+    struct {
+        double begin;    /* kinetic and elastic energy when the accounts were opened */
+        double fracture; /* what springs held when they let go */
+        double user;     /* what changes of springs added */
+    } account;
+};
+
 struct sim {
     /* Points: the paper's table 1. Its acceleration is force / mass. Rows are x, y, z and 0, aligned to 32 bytes. */
     uint32_t point_count;
@@ -182,6 +193,8 @@ struct sim {
     bool edges_broke;     /* since the triangles were last asked */
     uint32_t broken;      /* edges that have let go, in all */
 
+    struct sim_ledger ledger;
+
     uint32_t *piece;    /* [edge_count] for sim_measure(): an edge of the same piece */
     double *piece_area; /* [edge_count] likewise: of the piece, at its root */
     size_t bytes;       /* of all the arrays here */
@@ -219,9 +232,18 @@ void sim_each_part(struct sim *sim,
 /* Of an active edge its length now; of a broken one that when it broke. */
 double sim_edge_length(const struct sim *sim, uint32_t edge);
 
+/* What an edge's spring holds: k_s (|l| - r)^2 / 2. */
+static inline double sim_spring_energy(const struct sim *sim, uint32_t edge)
+{
+    const double stretched = sim_edge_length(sim, edge) - sim->rest_length[edge];
+    return sim->current_spring_const[edge] * stretched * stretched / 2;
+}
+
 /* Makes one edge let go; for break_edges() and for effects. */
 static inline void sim_break_edge(struct sim *sim, uint32_t edge)
 {
+    if (sim->ledger.on)
+        sim->ledger.account.fracture += sim_spring_energy(sim, edge);
     sim->broken_length[edge] = sim_edge_length(sim, edge);
     sim->edge_active[edge] = 0;
     sim->edges_broke = true;

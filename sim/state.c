@@ -10,7 +10,13 @@ double sim_edge_length(const struct sim *sim, uint32_t edge)
                                   : sim->broken_length[edge];
 }
 
-size_t sim_blocks(struct sim *sim, struct sim_block blocks[SIM_BLOCKS_MAX])
+/* Scalars that the state consists of: the ledger's are behind them. */
+static uint32_t state_scalars(const struct sim *sim)
+{
+    return sim->ledger.on ? sim->ledger.first : sim->scalar_count;
+}
+
+static size_t state_blocks(struct sim *sim, struct sim_block *blocks)
 {
     const size_t points = sim->point_count, edges = sim->edge_count;
     const struct sim_block own[] = {
@@ -28,7 +34,7 @@ size_t sim_blocks(struct sim *sim, struct sim_block blocks[SIM_BLOCKS_MAX])
         {"broken length", sim->broken_length, edges * sizeof *sim->broken_length},
         {"edge active", sim->edge_active, edges * sizeof *sim->edge_active},
         {"triangle active", sim->triangle_active, sim->triangle_count * sizeof *sim->triangle_active},
-        {"scalar", sim->scalar, sim->scalar_count * sizeof *sim->scalar},
+        {"scalar", sim->scalar, state_scalars(sim) * sizeof *sim->scalar},
         {"settings", sim->settings, sim->balloon_count * sizeof *sim->settings},
     };
     size_t count = 0;
@@ -39,10 +45,22 @@ size_t sim_blocks(struct sim *sim, struct sim_block blocks[SIM_BLOCKS_MAX])
     return count;
 }
 
+size_t sim_blocks(struct sim *sim, struct sim_block blocks[SIM_BLOCKS_MAX])
+{
+    size_t count = state_blocks(sim, blocks);
+    if (!sim->ledger.on)
+        return count;
+    const uint32_t first = sim->ledger.first;
+    blocks[count++] = (struct sim_block){"ledger", &sim->ledger.account, sizeof sim->ledger.account};
+    blocks[count++] = (struct sim_block){"ledger's scalars", &sim->scalar[first],
+                                         (sim->scalar_count - first) * sizeof *sim->scalar};
+    return count;
+}
+
 uint64_t sim_hash(struct sim *sim)
 {
     struct sim_block blocks[SIM_BLOCKS_MAX];
-    const size_t count = sim_blocks(sim, blocks);
+    const size_t count = state_blocks(sim, blocks); /* whether it is watched makes no difference */
     uint64_t hash = HASH_START;
     for (size_t i = 0; i < count; i++)
         hash = hash_bytes(hash, blocks[i].data, blocks[i].size);

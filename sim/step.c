@@ -3,7 +3,7 @@
  * forces.c; part 5, drawing, is the renderer's.
  */
 #include "sim/kernels.h"
-#include "sim/sim.h"
+#include "sim/ledger.h"
 
 static void part_forces(struct sim *sim, const struct sim_part *part, void *context)
 {
@@ -17,6 +17,8 @@ static void part_forces(struct sim *sim, const struct sim_part *part, void *cont
 void sim_forces(struct sim *sim)
 {
     sim_each_part(sim, part_forces, NULL);
+    if (sim->ledger.on)
+        ledger_rates(sim);           /* what pressure and dampers do to the energy, where accounts are kept */
     effects_run(sim, EFFECT_FORCES); /* whatever else this scene calls for */
 }
 

@@ -13,9 +13,15 @@ a_file frames/frame_0080.png
 a_file sheet.png
 a_file end.ply
 [ "$(wc -l <log.tsv)" = 82 ] || fail "the log has $(wc -l <log.tsv) lines, wanted 82"
-[ "$(head -n 1 log.tsv)" = "$(printf 'time\tmean_radius\tvolume\tgauge_pressure\tkinetic_energy\telastic_energy\tmax_stretch\tedges_active\ttriangles_active\tarea\tpieces\tlargest_piece_area\tstep\tseconds')" ] ||
+[ "$(head -n 1 log.tsv)" = "$(printf 'time\tmean_radius\tvolume\tgauge_pressure\tkinetic_energy\telastic_energy\tmax_stretch\tedges_active\ttriangles_active\tarea\tpieces\tlargest_piece_area\tstep\tseconds\tgas_energy\tdissipated_energy\tfracture_energy\tpressure_work\tuser_work\tbalance_error')" ] ||
     fail "the log's header is: $(head -n 1 log.tsv)"
-awk -F'\t' 'NF != 14 || /nan|inf/ { exit 1 }' log.tsv || fail "a row of the log is not 14 numbers"
+awk -F'\t' 'NF != 20 || /nan|inf/ { exit 1 }' log.tsv || fail "a row of the log is not 20 numbers"
+
+# the energy's accounts: all is 0 at first; the burst breaks springs that held some; the error is what is left over
+awk -F'\t' 'NR == 2 { for (i = 15; i <= 20; i++) if ($i != 0) exit 1 }
+    { left = $5 + $6 + $15 + $16 + $17 - $18 - $19 - $20; if (NR > 1 && left * left > 1e-4 * $20 * $20) exit 1 }
+    END { if (!($16 > 0 && $17 > 0 && $18 > 0 && $15 == 0 && $19 == 0)) exit 1 }' log.tsv ||
+    fail "the energies do not add up: $(tail -n 1 log.tsv)"
 
 # pictures and logs are only watched: the state is the same without them, and again
 expect 0 balloon-sim sphere.cfg $small --hash

@@ -1,0 +1,194 @@
+/* The ledger: what comes in goes out or is there, and keeping accounts changes nothing. */
+#include "balloon.h"
+#include "sim/ledger.h"
+
+static void open_books(struct balloon *b)
+{
+    struct error err = {0};
+    assert_ok(ledger_open(&b->sim, &err), &err);
+}
+
+static struct ledger_balance balance(struct balloon *b)
+{
+    const struct sim_measures m = sim_measure(&b->sim);
+    return ledger_balance(&b->sim, &m);
+}
+
+/* The balance's error after .2 s of swelling, at this step; the greatest energy in play goes to *scale. */
+static double error_at(const char *integrator, double step, double *scale)
+{
+    struct balloon b;
+    char name[64], text[64];
+    snprintf(name, sizeof name, "time.integrator=%s", integrator);
+    snprintf(text, sizeof text, "time.step=%.17g", step);
+    open_balloon(&b, 2, SETTINGS(name, text, "balloons[0].pressure=4", "time.end=0.2"));
+    open_books(&b);
+    while (b.sim.time < 0.2 - step / 2)
+        steps(&b, 1);
+    const struct ledger_balance account = balance(&b);
+    assert_true(account.pressure_work > 0 && account.dissipated > 0);
+    *scale = account.pressure_work;
+    close_balloon(&b);
+    return account.error;
+}
+
+/* The scalars are integrated as the points are, so the balance is as good as they are. Halving the step divides the error by
+ * 2^order, up to the next order's share: within a tenth of the order at these steps. Where the error is down at the round-off of
+ * a few hundred steps (1e-13 of the work) there is nothing left to be halved. */
+static void its_error_falls_with_the_integrators_order(void **state)
+{
+    (void)state;
+    for (size_t i = 0; integrators[i]; i++) {
+        if (integrators[i]->flags & INTEGRATOR_ADAPTIVE)
+            continue;
+        double scale, coarse = error_at(integrators[i]->name, 0.002, &scale),
+                      fine = error_at(integrators[i]->name, 0.001, &scale);
+        print_message("%s: %.3g, %.3g of %.3g\n", integrators[i]->name, coarse, fine, scale);
+        if (fabs(fine) < 1e-12 * scale)
+            continue;
+        assert_true(log2(fabs(coarse / fine)) > integrators[i]->order - 0.1);
+    }
+}
+
+/* Nothing is pressed and nothing moves: not even round-off. */
+static void at_rest_all_accounts_stay_at_zero(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 2, SETTINGS("balloons[0].pressure=0"));
+    open_books(&b);
+    steps(&b, 100);
+    const struct ledger_balance account = balance(&b);
+    assert_memory_equal(&account, &(struct ledger_balance){0}, sizeof account);
+    close_balloon(&b);
+}
+
+/* An edge lets go at one moment: what its spring held goes over into the account, so the sum stays, up to the round-off of
+ * adding up the energies of all edges (1e-16 x their number x their sum). */
+static void what_a_breaking_edge_held_is_counted_exactly(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 2, SETTINGS("balloons[0].pressure=4"));
+    open_books(&b);
+    steps(&b, 10);
+    const double before = balance(&b).error, elastic = sim_measure(&b.sim).elastic_energy;
+    assert_true(elastic > 0);
+    for (uint32_t e = 0; e < b.sim.edge_count; e += 2)
+        sim_break_edge(&b.sim, e);
+    const struct ledger_balance after = balance(&b);
+    assert_true(after.fracture > 0.3 * elastic);
+    assert_near(after.error, before, 1e-16 * b.sim.edge_count * elastic);
+    close_balloon(&b);
+}
+
+static void a_scheduled_change_of_springs_is_the_users_work(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 2,
+                 SETTINGS("balloons[0].pressure=4", "schedule[0].at=0.25", "schedule[0].spring_factor=3"));
+    open_books(&b);
+    steps(&b, 10);
+    const double before = balance(&b).error, elastic = sim_measure(&b.sim).elastic_energy;
+    sim_change(&b.sim, &b.scene.schedule[0]);
+    const struct ledger_balance after = balance(&b);
+    assert_near(after.user_work, 2 * elastic, 1e-16 * b.sim.edge_count * elastic);
+    assert_near(after.error, before, 1e-16 * b.sim.edge_count * 3 * elastic);
+    close_balloon(&b);
+}
+
+/* From the start to the dust, with first order's error of the paper's step: the sum holds to a few per cent. */
+static void it_balances_through_a_burst(void **state)
+{
+    (void)state;
+    double error[2];
+    static const char *const step[] = {"time.step=0.002", "time.step=0.001"};
+    for (int i = 0; i < 2; i++) {
+        struct balloon b;
+        open_balloon(&b, 3, SETTINGS(step[i], "balloons[0].pressure=10", "balloons[0].threshold=1.3"));
+        open_books(&b);
+        while (b.sim.time < 1)
+            steps(&b, 1);
+        const struct ledger_balance account = balance(&b);
+        assert_true(b.sim.broken > 100 && account.fracture > 0);
+        error[i] = fabs(account.error) / account.pressure_work;
+        close_balloon(&b);
+    }
+    assert_true(error[0] < 0.02 && error[1] < 0.6 * error[0]);
+}
+
+static void the_accounts_are_equal_to_the_bit_for_any_number_of_threads(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct balloon one;
+    open_balloon(&one, 3, SETTINGS("balloons[0].pressure=10", "balloons[0].threshold=1.2"));
+    open_books(&one);
+    steps(&one, 40);
+    const struct ledger_balance wanted = balance(&one);
+    for (unsigned workers = 2; workers < 8; workers += 5) {
+        struct sim sim;
+        assert_ok(sim_open(&sim, &one.scene, &one.mesh, workers, &err), &err);
+        assert_ok(ledger_open(&sim, &err), &err);
+        for (int i = 0; i < 40; i++)
+            assert_ok(sim_step(&sim, &err), &err);
+        const struct sim_measures m = sim_measure(&sim);
+        const struct ledger_balance got = ledger_balance(&sim, &m);
+        assert_memory_equal(&got, &wanted, sizeof got);
+        sim_clear(&sim);
+    }
+    close_balloon(&one);
+}
+
+/* With every method, across a burst. */
+static void keeping_accounts_changes_no_bit_of_the_state(void **state)
+{
+    (void)state;
+    for (size_t i = 0; integrators[i]; i++) {
+        uint64_t hash[2];
+        char name[64];
+        snprintf(name, sizeof name, "time.integrator=%s", integrators[i]->name);
+        for (int books = 0; books < 2; books++) {
+            struct balloon b;
+            open_balloon(
+                &b, 2,
+                SETTINGS(name, "balloons[0].pressure=30", "balloons[0].threshold=1.2", "time.step=0.01"));
+            if (books)
+                open_books(&b);
+            steps(&b, 60);
+            assert_true(b.sim.broken > 0);
+            hash[books] = sim_hash(&b.sim);
+            close_balloon(&b);
+        }
+        if (hash[0] != hash[1])
+            fail_msg("%s: another state when accounts are kept", integrators[i]->name);
+    }
+}
+
+static void nothing_is_counted_unless_it_is_asked_for(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 1, SETTINGS("balloons[0].pressure=10"));
+    steps(&b, 10);
+    assert_int_equal(b.sim.scalar_count, 0);
+    const struct ledger_balance account = balance(&b);
+    assert_memory_equal(&account, &(struct ledger_balance){0}, sizeof account);
+    close_balloon(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(its_error_falls_with_the_integrators_order),
+        cmocka_unit_test(at_rest_all_accounts_stay_at_zero),
+        cmocka_unit_test(what_a_breaking_edge_held_is_counted_exactly),
+        cmocka_unit_test(a_scheduled_change_of_springs_is_the_users_work),
+        cmocka_unit_test(it_balances_through_a_burst),
+        cmocka_unit_test(the_accounts_are_equal_to_the_bit_for_any_number_of_threads),
+        cmocka_unit_test(keeping_accounts_changes_no_bit_of_the_state),
+        cmocka_unit_test(nothing_is_counted_unless_it_is_asked_for),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
