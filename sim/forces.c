@@ -16,9 +16,17 @@ static inline real dot(row a, row b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/* Four wide where rows fit registers; GCC 12 takes a row that does not apart at each shuffle. */
 static inline row cross(row a, row b)
 {
+#ifdef SIM_WIDE
+    const row a_yzx = __builtin_shufflevector(a, a, 1, 2, 0, 3),
+              b_yzx = __builtin_shufflevector(b, b, 1, 2, 0, 3);
+    const row zxy = a * b_yzx - a_yzx * b;
+    return __builtin_shufflevector(zxy, zxy, 1, 2, 0, 3);
+#else
     return (row){a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0};
+#endif
 }
 
 static inline real length_of(row a)
@@ -33,10 +41,10 @@ static inline real inverse(real length)
 }
 
 /* Part 1: "initialize acceleration and normal vectors to (0,0,0)". */
-static void clear_points(struct sim *sim, const struct sim_part *part)
+static void clear_points(struct sim *sim, const struct sim_chunk *chunk)
 {
     row *force = sim->rows.force, *normal = sim->rows.normal;
-    for (uint32_t p = part->point_begin; p < part->point_end; p++)
+    for (uint32_t p = chunk->clear_begin; p < chunk->clear_end; p++)
         force[p] = normal[p] = (row){0};
 }
 
@@ -75,24 +83,35 @@ static inline row edge_force(const struct edges *edges, uint32_t e)
     return (spring + damper) * inverse(length) * l;
 }
 
-static void edge_forces(struct sim *sim, const struct sim_part *part)
+static void coming_forces(struct sim *sim, const struct sim_part *part)
 {
     const struct edges edges = edges_of(sim, part);
-    const uint32_t end = part->edge_end, point_end = part->point_end;
     row *force = sim->rows.force;
     for (uint32_t i = 0; i < part->edge_in_count; i++) {
         const uint32_t e = part->edge_in[i];
         if (edges.active[e])
             force[edges.point[e][1]] += edge_force(&edges, e);
     }
-    for (uint32_t e = part->edge_begin; e < end; e++) {
-        if (!edges.active[e])
-            continue;
-        const row f = edge_force(&edges, e);
-        force[edges.point[e][0]] -= f;
-        if (edges.point[e][1] < point_end)
+}
+
+static void edge_forces(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk)
+{
+    const struct edges edges = edges_of(sim, part);
+    const uint32_t inner_end = chunk->edge_inner_end, end = chunk->edge_end, point_end = part->point_end;
+    row *force = sim->rows.force;
+    for (uint32_t e = chunk->edge_begin; e < inner_end; e++)
+        if (edges.active[e]) {
+            const row f = edge_force(&edges, e);
+            force[edges.point[e][0]] -= f;
             force[edges.point[e][1]] += f;
-    }
+        }
+    for (uint32_t e = inner_end; e < end; e++)
+        if (edges.active[e]) {
+            const row f = edge_force(&edges, e);
+            force[edges.point[e][0]] -= f;
+            if (edges.point[e][1] < point_end)
+                force[edges.point[e][1]] += f;
+        }
 }
 
 /* Part 3: the unit normal of a triangle, which each active one adds to its three points'. A triangle without area has none
@@ -103,36 +122,51 @@ static inline row triangle_normal(const row *position, const uint32_t *p)
     return twice_area * inverse(length_of(twice_area));
 }
 
-static void triangle_normals(struct sim *sim, const struct sim_part *part)
+/* Adds it to those of the three points that are the part's. */
+static inline void add_to_own(const struct sim_part *part, row *normal, const uint32_t *p, row n)
+{
+    for (int k = 0; k < 3; k++)
+        if (p[k] - part->point_begin < part->point_end - part->point_begin)
+            normal[p[k]] += n;
+}
+
+static void coming_normals(struct sim *sim, const struct sim_part *part)
+{
+    const row *position = sim->rows.position;
+    for (uint32_t i = 0; i < part->triangle_in_count; i++) {
+        const uint32_t *p = sim->triangle_point[part->triangle_in[i]];
+        if (sim->triangle_active[part->triangle_in[i]])
+            add_to_own(part, sim->rows.normal, p, triangle_normal(position, p));
+    }
+}
+
+static void triangle_normals(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk)
 {
     const row *position = sim->rows.position;
     row *normal = sim->rows.normal;
     const uint32_t(*point)[3] = (const uint32_t(*)[3])sim->triangle_point;
     const unsigned char *active = sim->triangle_active;
-    const uint32_t begin = part->point_begin, own = part->point_end - begin, end = part->triangle_end;
-    for (uint32_t i = 0; i < part->triangle_in_count; i++) {
-        const uint32_t t = part->triangle_in[i];
-        for (int k = 0; k < 3 && active[t]; k++)
-            if (point[t][k] - begin < own)
-                normal[point[t][k]] += triangle_normal(position, point[t]);
-    }
-    for (uint32_t t = part->triangle_begin; t < end; t++) {
-        if (!active[t])
-            continue;
-        const row n = triangle_normal(position, point[t]);
-        for (int k = 0; k < 3; k++)
-            if (point[t][k] - begin < own)
-                normal[point[t][k]] += n;
-    }
+    const uint32_t inner_end = chunk->triangle_inner_end, end = chunk->triangle_end;
+    for (uint32_t t = chunk->triangle_begin; t < inner_end; t++)
+        if (active[t]) {
+            const row n = triangle_normal(position, point[t]);
+            normal[point[t][0]] += n;
+            normal[point[t][1]] += n;
+            normal[point[t][2]] += n;
+        }
+    for (uint32_t t = inner_end; t < end; t++)
+        if (active[t])
+            add_to_own(part, normal, point[t], triangle_normal(position, point[t]));
 }
 
 /* Part 4: normalize the normals; pressure is a force along them. A point that lost its last triangle has no normal, and
  * nothing for the air to press on. */
-static void pressure_forces(struct sim *sim, const struct sim_part *part)
+static void pressure_forces(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk)
 {
     row *force = sim->rows.force, *normal = sim->rows.normal;
     const real pressure = (real)part->balloon->now->pressure;
-    for (uint32_t p = part->point_begin; p < part->point_end; p++) {
+    const uint32_t end = chunk->point_end;
+    for (uint32_t p = chunk->point_begin; p < end; p++) {
         normal[p] *= inverse(length_of(normal[p]));
         force[p] += pressure * normal[p];
     }
@@ -149,11 +183,12 @@ static uint32_t count_overlong(const struct sim *sim, const struct sim_part *par
     uint32_t count = 0;
     for (uint32_t e = part->edge_begin; e < end; e++) {
         const row l = position[point[e][0]] - position[point[e][1]];
-        count += (dot(l, l) > limit) & active[e];
+        if (dot(l, l) > limit)
+            count += active[e];
     }
     return count;
 }
 
 extern const struct sim_kernels SIM_KERNELS;
-const struct sim_kernels SIM_KERNELS = {clear_points, edge_forces, triangle_normals, pressure_forces,
-                                        count_overlong};
+const struct sim_kernels SIM_KERNELS = {clear_points,     coming_forces,   edge_forces,   coming_normals,
+                                        triangle_normals, pressure_forces, count_overlong};

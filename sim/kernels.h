@@ -8,12 +8,14 @@
 
 #include "sim/sim.h"
 
-/* Each sets or adds to the rows of its part's own points, and reads whatever it needs. */
+/* Each sets or adds to rows of its part's points, chunk by chunk, and reads whatever it needs. */
 struct sim_kernels {
-    void (*clear_points)(struct sim *sim, const struct sim_part *part);
-    void (*edge_forces)(struct sim *sim, const struct sim_part *part);
-    void (*triangle_normals)(struct sim *sim, const struct sim_part *part);
-    void (*pressure_forces)(struct sim *sim, const struct sim_part *part);
+    void (*clear_points)(struct sim *sim, const struct sim_chunk *chunk);
+    void (*coming_forces)(struct sim *sim, const struct sim_part *part); /* of edges of lower parts */
+    void (*edge_forces)(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk);
+    void (*coming_normals)(struct sim *sim, const struct sim_part *part); /* of triangles of lower parts */
+    void (*triangle_normals)(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk);
+    void (*pressure_forces)(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk);
     /* How many of the active edges that begin in this part are longer than the threshold. */
     uint32_t (*count_overlong)(const struct sim *sim, const struct sim_part *part);
 };

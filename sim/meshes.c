@@ -56,7 +56,7 @@ static enum status load_mesh(const char *path, struct mesh *mesh, struct mesh_re
     status = check_surface(path, mesh, report, err);
     if (!status && report->volume < 0)
         turn_inside_out(mesh);
-    return status;
+    return status ? status : mesh_order(mesh, err);
 }
 
 enum status sim_load_meshes(const struct scene *scene, struct mesh *meshes, struct mesh_report *reports,

@@ -62,6 +62,19 @@ struct sim_part {
     uint32_t triangle_begin, triangle_end; /* the triangles whose lowest point is here */
     uint32_t *edge_in, edge_in_count;      /* edges of lower parts that end here, in order; owned */
     uint32_t *triangle_in, triangle_in_count;
+    struct sim_chunk *chunks; /* [chunk_count] owned */
+    uint32_t chunk_count;
+};
+
+/* A stretch of a part that stays in a core's cache while all its forces are worked out; after it the forces on its points
+ * are complete, since edges and triangles stand in the order of their lowest points. */
+struct sim_chunk {
+    uint32_t point_begin, point_end;
+    uint32_t clear_begin, clear_end;       /* points that are touched here for the first time */
+    uint32_t edge_begin, edge_end;         /* whose lower point is here */
+    uint32_t edge_inner_end;               /* up to this one all their points are the part's */
+    uint32_t triangle_begin, triangle_end; /* likewise */
+    uint32_t triangle_inner_end;
 };
 
 /* A method that moves the points over one step of dt (integrators.c). It starts from sim->position, velocity and scalar and
@@ -202,7 +215,8 @@ struct sim {
 
 /* Reads the mesh of each balloon of a checked scene, repairs and connects it. meshes and reports have balloon_count
  * elements, empty; on failure they may be partly filled. Refuses (STATUS_INPUT, with the file's name) what cannot be
- * inflated: meshes that are open, no surface, or not consistently wound. An inside-out mesh is turned. */
+ * inflated: meshes that are open, no surface, or not consistently wound. An inside-out mesh is turned. Points and
+ * triangles are renumbered so that neighbours are near in memory (mesh_order). */
 enum status sim_load_meshes(const struct scene *scene, struct mesh *meshes, struct mesh_report *reports,
                             struct error *err);
 

@@ -5,13 +5,21 @@
 #include "sim/kernels.h"
 #include "sim/ledger.h"
 
+/* Chunk by chunk, so that a large balloon goes through the caches once. */
 static void part_forces(struct sim *sim, const struct sim_part *part, void *context)
 {
     (void)context;
-    sim->kernels->clear_points(sim, part);     /* 1  forces and normals are 0             */
-    sim->kernels->edge_forces(sim, part);      /* 2  springs and dampers                  */
-    sim->kernels->triangle_normals(sim, part); /* 3  face normals, added to the points    */
-    sim->kernels->pressure_forces(sim, part);  /* 4  pressure along each point's normal   */
+    const struct sim_kernels *k = sim->kernels;
+    for (const struct sim_chunk *c = part->chunks; c < part->chunks + part->chunk_count; c++) {
+        k->clear_points(sim, c); /* 1  forces and normals are 0             */
+        if (c == part->chunks) {
+            k->coming_forces(sim, part);
+            k->coming_normals(sim, part);
+        }
+        k->edge_forces(sim, part, c);      /* 2  springs and dampers                  */
+        k->triangle_normals(sim, part, c); /* 3  face normals, added to the points    */
+        k->pressure_forces(sim, part, c);  /* 4  pressure along each point's normal   */
+    }
 }
 
 void sim_forces(struct sim *sim)

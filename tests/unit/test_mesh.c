@@ -2,6 +2,7 @@
 #include "common/mesh.h"
 #include "common/random.h"
 #include "solids.h"
+#include "support/shapes.h"
 
 static int compare_triples(const void *a, const void *b)
 {
@@ -225,6 +226,48 @@ static void volume_does_not_suffer_from_being_far_away(void **state)
     mesh_clear(&mesh);
 }
 
+/* Gives the points other numbers, at random. */
+static void shuffle_points(struct mesh *mesh)
+{
+    uint64_t random = 5;
+    for (uint32_t p = mesh->point_count - 1; p > 0; p--) {
+        const uint32_t q = (uint32_t)(random_bits(&random) % (p + 1));
+        for (int i = 0; i < 3; i++) {
+            const double swap = mesh->position[p][i];
+            mesh->position[p][i] = mesh->position[q][i];
+            mesh->position[q][i] = swap;
+        }
+        for (uint32_t t = 0; t < mesh->triangle_count; t++)
+            for (int k = 0; k < 3; k++) {
+                uint32_t *corner = &mesh->triangle[t][k];
+                *corner = *corner == p ? q : *corner == q ? p : *corner;
+            }
+    }
+}
+
+static void neighbours_get_near_numbers_and_the_shape_stays(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct mesh mesh = {0};
+    shape_icosphere(3, &mesh);
+    const double volume = mesh_volume(&mesh), area = mesh_area(&mesh);
+    shuffle_points(&mesh);
+    assert_ok(mesh_connect(&mesh, &err), &err);
+    assert_ok(mesh_order(&mesh, &err), &err);
+    assert_near(mesh_volume(&mesh), volume, 1e-12);
+    assert_near(mesh_area(&mesh), area, 1e-12);
+    /* A front of the walk is at most about as long as the equator, 40 points here (642 points lie 12 to a unit of angle),
+     * and an edge joins a front to the next: at random the mean would be 214. */
+    for (uint32_t e = 0; e < mesh.edge_count; e++)
+        assert_true(mesh.edge[e][1] - mesh.edge[e][0] < 100);
+    for (uint32_t t = 1; t < mesh.triangle_count; t++) {
+        const uint32_t *a = mesh.triangle[t - 1], *b = mesh.triangle[t];
+        assert_true(fmin(fmin(a[0], a[1]), a[2]) <= fmin(fmin(b[0], b[1]), b[2]));
+    }
+    mesh_clear(&mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -236,6 +279,7 @@ int main(void)
         cmocka_unit_test(a_point_with_a_million_edges_is_no_harder),
         cmocka_unit_test(a_corner_that_is_no_point_has_no_edges),
         cmocka_unit_test(more_points_than_32_bits_count_are_refused),
+        cmocka_unit_test(neighbours_get_near_numbers_and_the_shape_stays),
         cmocka_unit_test(a_cube_has_volume_one_and_area_six),
         cmocka_unit_test(volume_does_not_suffer_from_being_far_away),
     };
