@@ -74,4 +74,5 @@ static void apply(struct sim *sim, struct sim_balloon *balloon)
     cut(sim, balloon);
 }
 
-const struct effect effect_rip = {"rip", EFFECT_AFTER_STEP, wanted, apply, "paper 4.1"};
+const struct effect effect_rip = {
+    .name = "rip", .phase = EFFECT_AFTER_STEP, .wanted = wanted, .apply = apply, .source = "paper 4.1"};

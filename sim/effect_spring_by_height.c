@@ -27,4 +27,8 @@ static void apply(struct sim *sim, struct sim_balloon *balloon)
     }
 }
 
-const struct effect effect_spring_by_height = {"spring_by_height", EFFECT_OPEN, wanted, apply, "paper 3.1"};
+const struct effect effect_spring_by_height = {.name = "spring_by_height",
+                                               .phase = EFFECT_OPEN,
+                                               .wanted = wanted,
+                                               .apply = apply,
+                                               .source = "paper 3.1"};

@@ -20,20 +20,20 @@
 
 struct sim_jacobian;
 
-/* Makes sim->jacobian, empty. 96 bytes an edge and 64 a point and a triangle at most. Errors: STATUS_NO_MEMORY. */
+/* Makes sim->jacobian, empty: 64 bytes an edge and a point, 32 a triangle. Errors: STATUS_NO_MEMORY; close it all the same. */
 enum status sim_jacobian_open(struct sim *sim, struct error *err);
 void sim_jacobian_close(struct sim *sim); /* fine when there is none */
 
 /* Takes the derivatives at the current positions and velocities. Needs no forces. */
 void sim_linearise(struct sim *sim);
 
-/* df = a K dx + b D dv. dx, dv, df are rows of [point_count], the fourth numbers 0; dx and dv are only read and may be the
+/* df = a K dx + b D dv. dx, dv, df are rows of [point_count] aligned to 32 bytes, the fourth numbers 0; dx and dv are only read and may be the
  * same rows, df is neither. */
 void sim_force_product(struct sim *sim, double a, double (*dx)[4], double b, double (*dv)[4],
                        double (*df)[4]);
 
 /* The 3x3 diagonal blocks of M - a K - b D, M the masses, without the shares of effects: block[p][i][j], the fourth
- * numbers 0. [point_count] */
+ * numbers 0. [point_count], aligned to 32 bytes. */
 void sim_diagonal_blocks(struct sim *sim, double a, double b, double (*block)[3][4]);
 
 #endif
