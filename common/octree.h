@@ -59,6 +59,11 @@ void octree_clear(struct octree *tree);
  */
 enum status octree_copy(struct octree *to, const struct octree *from, struct error *err);
 
+/* Makes *cut (valid; {0} is) the octree in 2^depth cells a side, or a copy where it has no more: a cell is full when any
+ * part of it is, of the material of the first such part. O(nodes of the result). Errors: STATUS_NO_MEMORY; then *cut is
+ * empty. */
+enum status octree_cut(const struct octree *tree, unsigned depth, struct octree *cut, struct error *err);
+
 /* All leaves, empty ones too: each split turns one leaf into eight. */
 static inline size_t octree_leaf_count(const struct octree *tree)
 {

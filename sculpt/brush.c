@@ -17,18 +17,29 @@ static void along(const struct session_ray *ray, double distance, double place[3
         place[i] = ray->origin[i] + distance * ray->direction[i];
 }
 
-/* Under the point that is hit, and out of the face there. */
-static void place_brush(struct session *session)
+static void snap(const struct session *session, double place[3])
 {
     const double side = 1 << session->tree.depth;
+    for (int i = 0; i < 3; i++)
+        place[i] = (floor(place[i] * side) + 0.5) / side;
+}
+
+/* Under the point that is hit, and out of the face there. Snapped, it begins from the middle of the cell that is hit or, to
+ * fill, of the one before it: on the face between them rounding would choose. */
+static void place_brush(struct session *session)
+{
+    const double half_cell = 0.5 / (1 << session->tree.depth);
+    double sunk = session->depth * session->radius;
+    if (session->snap)
+        sunk += session->fill ? -half_cell : half_cell;
     along(&session->ray, session->hit.distance, session->middle);
     for (int i = 0; i < 3; i++) {
         session->normal[i] = session->hit.outward ? (i == session->hit.axis) * session->hit.outward
                                                   : -session->ray.direction[i];
-        session->middle[i] -= session->depth * session->radius * session->normal[i];
-        if (session->snap)
-            session->middle[i] = (floor(session->middle[i] * side) + 0.5) / side;
+        session->middle[i] -= sunk * session->normal[i];
     }
+    if (session->snap)
+        snap(session, session->middle);
 }
 
 /* A stroke keeps to the plane through its beginning that faces the eye: it sweeps, and does not dig itself in. */
@@ -40,6 +51,8 @@ static void move_stroke(struct session *session)
     const double distance = vec3_dot(to_plane, session->pressed.direction);
     if (across > 0.01 && distance > 0)
         along(&session->ray, distance / across, session->middle);
+    if (session->snap)
+        snap(session, session->middle);
 }
 
 void session_aim(struct session *session, const double origin[3], const double direction[3])

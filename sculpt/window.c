@@ -3,9 +3,11 @@
 
 #include "sculpt/window_app.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 enum {
@@ -60,10 +62,20 @@ void app_see_all(struct app *app)
     orbit_frame(&app->orbit, &app->view, low, high);
 }
 
+struct render_view app_drawn_view(const struct app *app)
+{
+    struct render_view view = app->view;
+    if (view.stereo && view.width > 1)
+        view.width &= ~1; /* two halves */
+    orbit_camera(&app->orbit, &view.camera);
+    return view;
+}
+
 void app_aim(struct app *app)
 {
     double origin[3], direction[3];
-    if (orbit_ray(&app->view, app->x + 0.5, app->y + 0.5, origin, direction))
+    const struct render_view view = app_drawn_view(app);
+    if (orbit_ray(&view, app->x + 0.5, app->y + 0.5, origin, direction))
         session_aim(&app->session, origin, direction);
     else
         session_aim_nowhere(&app->session);
@@ -75,6 +87,8 @@ static void moved(void *self, int x, int y, int modifiers)
     struct error err = {0};
     const int dx = x - app->x, dy = y - app->y;
     (void)modifiers;
+    if (dx || dy)
+        app->moved = app_seconds();
     app->x = x;
     app->y = y;
     if (!app->open)
@@ -174,6 +188,7 @@ static void wheel(void *self, int steps, int x, int y, int modifiers)
         session_sink_brush(&app->session, steps);
     else
         orbit_zoom(&app->orbit, steps);
+    app->moved = app_seconds();
     orbit_camera(&app->orbit, &app->view.camera);
     window_redraw(app->window);
 }
@@ -193,14 +208,29 @@ static bool wants_to_close(void *self)
     return false;
 }
 
+double app_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* A hand that rests sees finer cells: some are still to be made, or drawn. */
+static bool wants_finer(const struct app *app)
+{
+    return app->open && !app->preview && !app->fine;
+}
+
 void app_schedule(struct app *app)
 {
+    int milliseconds = -1;
+    if (app->open && app->session.saving)
+        milliseconds = LOOK_MILLISECONDS;
     if (app->preview && app->balloon.inflated)
-        window_timer(app->window, STEP_MILLISECONDS);
-    else if (app->waiting.count > 0 && !app->preview)
-        window_timer(app->window, 0);
-    else
-        window_timer(app->window, app->open && app->session.saving ? LOOK_MILLISECONDS : -1);
+        milliseconds = STEP_MILLISECONDS;
+    if (wants_finer(app))
+        milliseconds = (int)fmax(0, 1e3 * (app->moved + REST_SECONDS - app_seconds()) + 1);
+    window_timer(app->window, milliseconds);
 }
 
 static void on_time(void *self)
@@ -214,9 +244,10 @@ static void on_time(void *self)
         app->balloon.inflated = !status;
         window_redraw(app->window);
     }
-    if (app->waiting.count > 0 && !app->preview)
-        window_redraw(app->window);
-    app_schedule(app);
+    if (wants_finer(app))
+        window_redraw(app->window); /* which schedules what comes next */
+    else
+        app_schedule(app);
 }
 
 static void resized(void *self, int width, int height)
@@ -268,7 +299,7 @@ static enum status open_window(struct app *app, struct error *err)
 
 enum status sculpt_window(const struct sculpt_window_options *options, struct error *err)
 {
-    struct app app = {.options = options, .orbit = orbit_start(), .cell_edges = true};
+    struct app app = {.options = options, .orbit = orbit_start(), .cell_edges = true, .smooth_light = true};
     app.view.width = WINDOW_WIDTH;
     app.view.height = WINDOW_HEIGHT;
     enum status status = open_window(&app, err);
@@ -282,11 +313,10 @@ enum status sculpt_window(const struct sculpt_window_options *options, struct er
         session_clear(&app.session);
     octree_clear(&app.model);
     balloon_clear(&app.balloon);
-    render_solid_free(app.solid);
+    app_forget_faces(&app);
     render_close(app.render);
     window_free(app.window);
     free(app.found.items);
     free(app.faces.items);
-    free(app.waiting.items);
     return status;
 }

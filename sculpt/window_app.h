@@ -27,6 +27,25 @@ enum drag { DRAG_NOTHING, DRAG_TOOL, DRAG_TURN, DRAG_PAN };
 
 enum { STEP_MILLISECONDS = 25 }; /* the simulator's default step, at the speed of life */
 
+/* A hand that does nothing for this long rests. */
+#define REST_SECONDS 0.2
+
+enum {
+    WINDOW_COARSEST = 7, /* depth of the coarsest level: it is made within a frame */
+    WINDOW_LEVELS_MAX = OCTREE_DEPTH_MAX - WINDOW_COARSEST + 1,
+};
+
+/* The sculpture as it is drawn, in cells of one size. */
+struct window_level {
+    struct octree tree; /* cut off there; of level 0 it is the session's */
+    struct render_solid *solid;
+    struct octree_regions changed; /* in the session's cells, since the tree was cut */
+    struct {
+        struct window_brick *items;
+        size_t count, capacity;
+    } waiting; /* bricks to be made */
+};
+
 struct app {
     const struct sculpt_window_options *options;
     bool open; /* the session is: not while ASK_RECOVER waits */
@@ -34,7 +53,12 @@ struct app {
 
     struct window *window;
     struct render *render;
-    struct render_solid *solid;
+    struct window_level
+        levels[WINDOW_LEVELS_MAX]; /* [level_count] 0: every cell; 1: twice as large ones; ... */
+    struct window_level *shown;
+    int level_count, coarser;
+    bool fine;                /* the last frame showed all that can be told apart */
+    double moved;             /* when the hand did something last */
     struct brick_faces found; /* of one brick, and as the renderer takes them */
     struct {
         struct render_face *items;
@@ -42,10 +66,6 @@ struct app {
     } faces;
     struct orbit orbit;
     struct render_view view;
-    struct {
-        struct window_brick *items;
-        size_t count, capacity;
-    } waiting; /* bricks to be made; window_bricks.c */
     bool cell_edges, smooth_light, help;
 
     enum drag drag;
@@ -104,6 +124,9 @@ void app_say(struct app *app, const char *text);
 void app_say_unless_ok(struct app *app, enum status status, const struct error *err);
 void app_show_title(struct app *app);
 
+/* The picture as it is drawn and aimed at: stereo needs an even width. */
+struct render_view app_drawn_view(const struct app *app);
+
 /* Finds what is under the pointer. */
 void app_aim(struct app *app);
 
@@ -120,12 +143,20 @@ void app_draw(struct app *app);
 enum { WINDOW_TEXTS_MAX = 4 };
 size_t app_texts(const struct app *app, struct render_text texts[WINDOW_TEXTS_MAX]);
 
-/* window_bricks.c: brings the faces up to date with the session's changes, for this long; what is left waits in
- * app->waiting. */
-enum status app_update_solid(struct app *app, double most_seconds, struct error *err);
+/* window_bricks.c: brings the faces of a level up to date with the session's changes, for this long, and sets app->shown:
+ * a coarser one where that was not enough. */
+enum status app_update_solid(struct app *app, int level, double most_seconds, struct error *err);
 
-/* All faces are made anew. */
-void app_see_anew(struct app *app);
+/* All faces are made anew when they are wanted. */
+void app_forget_faces(struct app *app);
+
+/* The finest level whose cells can be told apart, and what is drawn while the hand moves: app->coarser levels above,
+ * which follows the time that the last such frame took. */
+int app_rest_level(const struct app *app);
+void app_adapt(struct app *app, int rest, double seconds);
+
+/* Of a clock that only goes forwards. */
+double app_seconds(void);
 
 /* A picture of the sculpture alone, 256 x 192, as the bytes of a PNG; *png is empty after a failure. */
 enum status app_preview(struct app *app, struct bytes *png, struct error *err);

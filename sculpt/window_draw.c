@@ -1,6 +1,7 @@
 /* What the sculpting window shows. */
 #include "sculpt/window_app.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -8,9 +9,6 @@ enum { LINES_MAX = 8 * 120 + 40, PREVIEW_WIDTH = 256, PREVIEW_HEIGHT = 192 };
 
 /* What a frame may take for bricks that changed, beside being drawn. */
 #define FRAME_SECONDS 0.02
-
-/* What a save may take for those that wait, so that its preview is whole. */
-#define PREVIEW_SECONDS 1.0
 
 static const float yellow[3] = {0.9f, 0.6f, 0.05f}, pale[3] = {0.75f, 0.75f, 0.72f},
                    blue[3] = {0.1f, 0.25f, 0.8f};
@@ -57,6 +55,26 @@ static size_t make_lines(const struct app *app, struct render_line *lines)
     return count;
 }
 
+/* The sculpture, with larger cells while the hand moves. */
+static enum status draw_sculpture(struct app *app, const struct render_view *view, struct render_scene *scene,
+                                  struct error *err)
+{
+    const double begin = app_seconds();
+    const bool moving = begin < app->moved + REST_SECONDS;
+    const int rest = app_rest_level(app), coarser = moving ? app->coarser : 0;
+    const int level = rest + coarser < app->level_count ? rest + coarser : app->level_count - 1;
+    enum status status = app_update_solid(app, level, FRAME_SECONDS, err);
+    if (status)
+        return status;
+    const double drawn = app_seconds();
+    scene->solid = app->shown->solid;
+    status = render_show(app->render, view, scene, err);
+    if (app->shown == &app->levels[level])
+        app_adapt(app, rest, app_seconds() - drawn);
+    app->fine = app->shown == &app->levels[rest];
+    return status;
+}
+
 void app_draw(struct app *app)
 {
     static struct render_line lines[LINES_MAX];
@@ -64,34 +82,31 @@ void app_draw(struct app *app)
     struct error err = {0};
     struct render_scene scene = {
         .lines = lines, .texts = texts, .cell_edges = app->cell_edges, .smooth_light = app->smooth_light};
-    struct render_view view = app->view;
-    if (view.stereo)
-        view.width &= ~1; /* two halves */
-    enum status status = app->open && !app->preview ? app_update_solid(app, FRAME_SECONDS, &err) : STATUS_OK;
-    orbit_camera(&app->orbit, &view.camera);
-    if (app->open && app->preview) {
-        scene.skins = balloon_skins(&app->balloon, &scene.skin_count, &view.camera);
-    } else if (app->open) {
-        scene.solid = app->solid;
-        scene.line_count = make_lines(app, lines);
-    }
+    struct render_view view = app_drawn_view(app);
     scene.text_count = app_texts(app, texts);
-    if (!status)
+    enum status status;
+    if (app->open && !app->preview) {
+        scene.line_count = make_lines(app, lines);
+        status = draw_sculpture(app, &view, &scene, &err);
+    } else {
+        if (app->open)
+            scene.skins = balloon_skins(&app->balloon, &scene.skin_count, &view.camera);
         status = render_show(app->render, &view, &scene, &err);
+    }
     if (status)
         snprintf(app->message, sizeof app->message, "%s", err.text);
-    if (app->waiting.count > 0)
-        app_schedule(app);
+    app_schedule(app);
 }
 
 enum status app_preview(struct app *app, struct bytes *png, struct error *err)
 {
     struct render_view view = {.width = PREVIEW_WIDTH, .height = PREVIEW_HEIGHT, .smooth_edges = true};
-    const struct render_scene scene = {.solid = app->solid};
+    struct render_scene scene = {0};
     struct image image = {0};
     struct orbit orbit = orbit_start();
     orbit_camera(&orbit, &view.camera);
-    enum status status = app_update_solid(app, PREVIEW_SECONDS, err);
+    enum status status = app_update_solid(app, app->level_count - 1, INFINITY, err);
+    scene.solid = app->shown->solid;
     if (!status)
         status = render_draw_scene(app->render, &view, &scene, &image, err);
     if (!status)

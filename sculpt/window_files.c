@@ -21,32 +21,22 @@ static void keep_tools(struct session *session, const struct session *before)
     session_resize_brush(session, 0);
 }
 
-/* Takes over *fresh, or clears it. */
-static enum status replace_session(struct app *app, struct session *fresh, struct error *err)
+/* Takes over *fresh. */
+static void replace_session(struct app *app, struct session *fresh)
 {
-    struct render_solid *solid;
-    enum status status = render_solid_new(app->render, (const double[3]){0, 0, 0},
-                                          1.0 / (1 << fresh->tree.depth), &solid, err);
-    if (status) {
-        session_clear(fresh);
-        return status;
-    }
     session_limit_undo(fresh, app->options->undo_memory);
     if (app->open) {
         keep_tools(fresh, &app->session);
         session_clear(&app->session);
     }
-    render_solid_free(app->solid);
-    app->solid = solid;
     app->session = *fresh;
+    app_forget_faces(app);
     app->open = true;
     app->question = ASK_NOTHING;
     app->preview = false;
-    app->waiting.count = 0;
     app->written = NULL;
     app->forgotten = 0;
     app_see_all(app);
-    return STATUS_OK;
 }
 
 enum status app_open_session(struct app *app, const char *path, bool recover, struct error *err)
@@ -54,12 +44,11 @@ enum status app_open_session(struct app *app, const char *path, bool recover, st
     struct session fresh;
     struct error reason = {0};
     enum status status = session_open(&fresh, path, app->options->depth, recover, &reason);
-    if (!status)
-        status = replace_session(app, &fresh, &reason);
     if (status) {
         *err = reason;
         return status;
     }
+    replace_session(app, &fresh);
     app_say(app, recover ? "The work that was not saved is back." : app->session.warning);
     app_show_title(app);
     return STATUS_OK;
@@ -97,7 +86,7 @@ void app_take_model(struct app *app, bool fill)
     if (!status)
         status = session_begin(&fresh, name, &app->model, &err);
     if (!status)
-        status = replace_session(app, &fresh, &err);
+        replace_session(app, &fresh);
     octree_clear(&app->model);
     app_say(app, status ? err.text : app->session.warning);
     app_show_title(app);

@@ -214,7 +214,7 @@ static void view_key(struct app *app, int key, int modifiers)
         break;
     case 'l':
         app->smooth_light = !app->smooth_light;
-        app_see_anew(app);
+        app_forget_faces(app);
         break;
     case 'v':
         change_stereo(app);

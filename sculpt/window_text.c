@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { TEXT_SIZE = 2048, LETTER_WIDTH = 6, MARGIN = 8, BOX_MARGIN = 4 };
+enum { TEXT_SIZE = 2048, LETTER_WIDTH = 6, MARGIN = 8, BOX_MARGIN = 4, ROOM_FOR_TOOL = 100 };
 
 static const char help[] = "left       tool              middle, alt+left  turn\n"
                            "right      pan (shift+middle)       wheel      zoom\n"
@@ -113,7 +113,7 @@ size_t app_texts(const struct app *app, struct render_text texts[WINDOW_TEXTS_MA
     static const float white[3] = {1, 1, 1}, warm[3] = {1, 0.8f, 0.3f};
     static char storage[WINDOW_TEXTS_MAX][TEXT_SIZE];
     size_t count = 0;
-    if (app->open) {
+    if (app->open && app->view.height >= ROOM_FOR_TOOL) {
         describe_tool(app, storage[count], TEXT_SIZE);
         add_text(app, texts, &count, storage[count], MARGIN, -MARGIN, white);
     }

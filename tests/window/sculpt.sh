@@ -1,65 +1,6 @@
 # A hand carves: each tool, wheel, mirror, undo, redo, save, save as, quit-and-ask, resize. What it leaves behind is the
-# sculpture that its chip script makes. PICTURES, if set, is a folder for a screenshot of each scene, to be looked at.
-. "$CASES/lib.sh"
-PATH=$SCULPT:$PATH
-
-journal=a.oct.journal
-
-open_sculptor() # ARGUMENT...
-{
-    balloon-sculpt "$@" >log 2>said </dev/null &
-    program=$!
-    window=$(timeout 60 xdotool search --sync --onlyvisible --name "balloon-sculpt" | tail -n 1)
-    [ -n "$window" ] || fail "no window"
-    xdotool windowfocus "$window" 2>/dev/null || true
-    at 10 10
-    settle
-}
-
-settle() { sleep 0.3; }
-
-press() # KEY...
-{
-    xdotool key "$@"
-    settle
-}
-
-click() # X Y
-{
-    at "$1" "$2"
-    xdotool click 1
-    settle
-}
-
-drag() # BUTTON X0 Y0 X1 Y1
-{
-    at "$2" "$3"
-    xdotool mousedown "$1"
-    at $((($2 + $4) / 2)) $((($3 + $5) / 2))
-    at "$4" "$5"
-    xdotool mouseup "$1"
-    settle
-}
-
-# journal_has PATTERN: the operation is in the journal, at the moment it is done
-journal_has()
-{
-    tries=0
-    until grep -Eq -- "$1" "$journal"; do
-        tries=$((tries + 1))
-        [ $tries -lt 100 ] || { cat "$journal" >log; fail "no line of the journal matches: $1"; }
-        sleep 0.05
-    done
-}
-
-picture() { [ -z "${PICTURES:-}" ] || import -window "$window" "$PICTURES/$1.png"; }
-
-# same_cells A.oct B.oct
-same_cells()
-{
-    balloon-sculpt -q "$1" --export 1.vox && balloon-sculpt -q "$2" --export 2.vox && cmp -s 1.vox 2.vox ||
-        fail "$1 and $2 are not the same sculpture"
-}
+# sculpture that its chip script makes.
+. "$CASES/hand.sh"
 
 open_sculptor a.oct --depth 5
 picture start
@@ -132,12 +73,7 @@ picture inflating
 press p
 
 press ctrl+s
-tries=0
-until [ -s a.oct ]; do
-    tries=$((tries + 1))
-    [ $tries -lt 100 ] || fail "nothing was saved"
-    sleep 0.05
-done
+wait_title a.oct
 cp "$journal" replay.chips
 balloon-sculpt -q --script replay.chips --depth 5 -o replay.oct
 same_cells a.oct replay.oct
@@ -154,12 +90,7 @@ press ctrl+shift+s
 press BackSpace BackSpace BackSpace BackSpace # .oct
 xdotool type b.oct
 press Return
-tries=0
-until [ -s ab.oct ]; do
-    tries=$((tries + 1))
-    [ $tries -lt 100 ] || fail "nothing was saved under another name"
-    sleep 0.05
-done
+wait_title ab.oct
 press ctrl+q
 ends 0
 [ ! -e a.oct.journal ] && [ ! -e ab.oct.journal ] || fail "a journal is left behind"

@@ -1,0 +1,43 @@
+# A window of any size, and one that is out of sight for a while, carves as before.
+. "$CASES/hand.sh"
+
+open_sculptor a.oct --depth 5
+press 1
+steps=0
+
+# carves_at X Y NAME
+carves_at()
+{
+    settle
+    steps=$((steps + 1))
+    click "$1" "$2"
+    until_true "a click in a window $3 does nothing" [ "$(grep -c '^step' "$journal")" = $steps ]
+    picture "$3"
+}
+
+carves_at 480 360 as-it-was
+xdotool windowsize "$window" 60 40
+press Home
+carves_at 30 22 tiny
+xdotool windowsize "$window" 1 1
+settle
+xdotool windowsize "$window" 2400 1800
+press Home
+carves_at 700 500 huge
+xdotool windowsize "$window" 701 500
+press v Home
+carves_at 175 330 stereo
+press v v Home
+
+xdotool windowunmap "$window"
+settle
+xdotool windowmap --sync "$window"
+xdotool windowfocus "$window" 2>/dev/null || true
+at 10 10
+carves_at 400 200 back
+press ctrl+s
+wait_title a.oct
+press ctrl+q
+ends 0
+balloon-sculpt -q a.oct --info | grep -q '^chip log' || fail "no sculpture"
+[ ! -s said ] || fail "it said something"
