@@ -46,14 +46,20 @@ void sim_clear(struct sim *sim)
     *sim = (struct sim){0};
 }
 
-/* Zeroed memory on a line of the cache, which adds to sim->bytes; *failed remembers that there was not enough. */
-static void *table(struct sim *sim, size_t count, size_t size, bool *failed)
+void *sim_table(struct sim *sim, size_t count, size_t size)
 {
     const size_t line = 64, bytes = (count * size + line) / line * line;
     void *items = aligned_alloc(line, bytes);
     if (items)
         memset(items, 0, bytes);
     sim->bytes += count * size;
+    return items;
+}
+
+/* *failed remembers that there was not enough. */
+static void *table(struct sim *sim, size_t count, size_t size, bool *failed)
+{
+    void *items = sim_table(sim, count, size);
     *failed |= !items;
     return items;
 }

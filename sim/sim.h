@@ -190,6 +190,7 @@ struct sim {
 
     const struct integrator *integrator;
     void *method;                            /* the integrator's own */
+    struct sim_jacobian *jacobian;           /* likewise, of implicit methods (jacobian.h) */
     double (*scratch[SIM_VECTORS_MAX])[4];   /* [point_count] the integrator's, as many as it asked for */
     double *scalar_scratch[SIM_VECTORS_MAX]; /* [scalar_count] likewise, one to each of scratch */
     double *block_sum;                       /* [point_count / VECTOR_BLOCK + 1] for vector_sum() */
@@ -237,6 +238,9 @@ void sim_forces(struct sim *sim);
 /* Room for `count` more scalars, all 0; *first becomes the number of the first. Between sim_open() and the first step, or by an
  * effect's hook as the sim is opened. Error: STATUS_NO_MEMORY. */
 enum status sim_add_scalars(struct sim *sim, uint32_t count, uint32_t *first, struct error *err);
+
+/* Zeroed memory on a line of the cache, free()d by whoever asked, which adds to sim->bytes. NULL: there is not enough. */
+void *sim_table(struct sim *sim, size_t count, size_t size);
 
 /* Runs function on every part, each on its worker, and returns when all are done. */
 void sim_each_part(struct sim *sim,
