@@ -170,3 +170,11 @@ double block_value(struct block *block, const double point[3], double gradient[3
 {
     return window_value(&block->window, point, &block->profiles, gradient);
 }
+
+double block_corner(const struct block *block, const int at[3], double gradient[3])
+{
+    return window_sum(&block->window,
+                      (const struct profile *const[3]){&block->profile[0][at[0]], &block->profile[1][at[1]],
+                                                       &block->profile[2][at[2]]},
+                      gradient);
+}

@@ -55,6 +55,9 @@ bool block_sample(struct block *block);
 /* The field and its gradient at any point of the block, with the same bits as from a probe. */
 double block_value(struct block *block, const double point[3], double gradient[3]);
 
+/* The same at a corner, 0 .. 8 along each axis; it need not have been sampled. */
+double block_corner(const struct block *block, const int at[3], double gradient[3]);
+
 /* The field along the edge of the grid that begins at the block's corner `at` and runs along `axis`. It is valid
  * until the next call of this block. The block was sampled. */
 struct line {

@@ -23,15 +23,15 @@ uint64_t brick_code(const struct grid *grid, const int at[3])
 
 /* Whether all corners are on one side of the threshold, since the field differs from that in the middle by at
  * most its steepness times the half diagonal. */
-static bool is_one_sided(const struct mesher *m, struct worker *worker, const int at[3])
+static bool is_one_sided(const struct mesher *m, struct worker *worker)
 {
-    double middle[3], gradient[3];
+    static const int middle[3] = {BRICK / 2, BRICK / 2, BRICK / 2};
+    double gradient[3];
     double most = 1.000001 * m->field->steepness * sqrt(3) * BRICK / 2 * m->grid.cube;
     if (most >= m->threshold)
         return false;
-    for (int axis = 0; axis < 3; axis++)
-        middle[axis] = grid_coordinate(&m->grid, at[axis] * BRICK + BRICK / 2);
-    return fabs(worker_value(worker, middle, gradient) - m->threshold) > most;
+    worker->evaluations++;
+    return fabs(block_corner(&worker->block, middle, gradient) - m->threshold) > most;
 }
 
 /* The signs of the values; false when they are all the same. */
@@ -133,7 +133,7 @@ double worker_value(struct worker *worker, const double point[3], double gradien
 /* What the worker's block, moved to the brick, holds; false when the surface does not pass through it. */
 static bool find_contents(const struct mesher *m, struct worker *worker, struct brick *brick)
 {
-    if (is_one_sided(m, worker, brick->at))
+    if (is_one_sided(m, worker))
         return false;
     worker->failed |= !block_sample(&worker->block);
     worker->samples += BLOCK_VALUES;

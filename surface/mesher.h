@@ -38,6 +38,7 @@ struct brick {
     uint64_t crossed[3][BRICK];                     /* [axis][z], bit 8 y + x: the edge from that corner */
     uint16_t rank[BRICK][3];  /* crossed edges of this brick before those of [z][axis] */
     uint64_t followed[BRICK]; /* [z], bit 8 y + x: that cell was reached */
+    bool queued;              /* on the mesher's stack */
     struct vertex *vertices;  /* [vertex_count] in some worker's chunks, until they are in the mesh */
     uint32_t vertex_count, triangle_count;
     uint32_t middle_count; /* vertices in the middle of cells, for loops that need one */
@@ -76,11 +77,6 @@ struct worker {
     bool in_block; /* all points asked for lie in the block: no need for a probe's own windows */
 };
 
-struct cell_at {
-    uint32_t brick;
-    uint16_t cell; /* 64 z + 8 y + x */
-};
-
 struct mesher {
     const struct field *field; /* borrowed */
     double threshold;
@@ -94,9 +90,9 @@ struct mesher {
     uint32_t *slots; /* [slot_count] open addressing by Morton code: brick + 1, or 0 */
     size_t slot_count;
     struct {
-        struct cell_at *items;
+        uint32_t *items;
         size_t count, capacity;
-    } stack; /* cells whose neighbours are still to be followed */
+    } stack; /* bricks with cells whose neighbours are still to be followed */
     size_t follows;
     size_t vertex_count, triangle_count, middle_count; /* of all bricks, once they are numbered */
     size_t bytes;                                      /* at the peak */

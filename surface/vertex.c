@@ -29,12 +29,14 @@ static double near_surface(const struct mesher *m)
     return CLEARANCE * m->grid.cube * m->field->steepness;
 }
 
-static void move_corner(const struct mesher *m, struct worker *worker, struct moved_corner *corner)
+static void move_corner(const struct mesher *m, struct worker *worker, const int at[3],
+                        struct moved_corner *corner)
 {
     double gradient[3], clearance = CLEARANCE * m->grid.cube;
     if (fabs(corner->excess) >= near_surface(m))
         return;
-    worker_value(worker, corner->place, gradient);
+    worker->evaluations++;
+    block_corner(&worker->block, at, gradient);
     double steepness = vec3_length(gradient);
     double missing = clearance - fabs(corner->excess) / steepness;
     if (!(steepness > 0 && missing > 0))
@@ -61,7 +63,7 @@ static const struct moved_corner *corner_of(const struct mesher *m, struct worke
     corner->excess = worker->block.values[index] - m->threshold;
     corner->known = true;
     corner->moved = false;
-    move_corner(m, worker, corner);
+    move_corner(m, worker, at, corner);
     return corner;
 }
 

@@ -206,18 +206,19 @@ struct plane_sum {
     double value, slope_x, slope_y;
 };
 
-static struct plane_sum sum_plane(const struct window *w, int layer, int z, const struct profile *axis)
+static struct plane_sum sum_plane(const struct window *w, int layer, int z,
+                                  const struct profile *const axis[3])
 {
     struct plane_sum total = {0, 0, 0};
     const enum field_track *track = w->field->layer[layer].track;
-    const double *sum = axis[1].sum[track[1]], *slope = axis[1].slope[track[1]];
-    int first = larger(axis[1].first, w->low[1]), end = smaller(axis[1].last, w->low[1] + w->size[1]);
+    const double *sum = axis[1]->sum[track[1]], *slope = axis[1]->slope[track[1]];
+    int first = larger(axis[1]->first, w->low[1]), end = smaller(axis[1]->last, w->low[1] + w->size[1]);
     for (int y = first; y < end; y++) {
         size_t row = window_row(w, layer, y, z);
         if (w->start[row] == w->start[row + 1])
             continue;
-        int i = y - axis[1].first;
-        struct row_sum along = sum_row(w, row, &axis[0], track[0]);
+        int i = y - axis[1]->first;
+        struct row_sum along = sum_row(w, row, axis[0], track[0]);
         total.value += (sum[i + 1] - sum[i]) * along.value;
         total.slope_x += (sum[i + 1] - sum[i]) * along.slope;
         total.slope_y += (slope[i + 1] - slope[i]) * along.value;
@@ -225,15 +226,12 @@ static struct plane_sum sum_plane(const struct window *w, int layer, int z, cons
     return total;
 }
 
-double window_value(const struct window *w, const double point[3], struct profiles *profiles,
-                    double gradient[3])
+double window_sum(const struct window *w, const struct profile *const axis[3], double gradient[3])
 {
-    const struct profile *axis = profiles->axis, *z = &axis[2];
+    const struct profile *z = axis[2];
     double value = 0;
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++)
         gradient[k] = 0;
-        profile_fill(w->field, point[k], &profiles->axis[k]);
-    }
     int first = larger(z->first, w->low[2]), end = smaller(z->last, w->low[2] + w->size[2]);
     for (int layer = 0; layer < w->field->layers; layer++) {
         enum field_track track = w->field->layer[layer].track[2];
@@ -248,4 +246,13 @@ double window_value(const struct window *w, const double point[3], struct profil
         }
     }
     return value;
+}
+
+double window_value(const struct window *w, const double point[3], struct profiles *profiles,
+                    double gradient[3])
+{
+    struct profile *axis = profiles->axis;
+    for (int k = 0; k < 3; k++)
+        profile_fill(w->field, point[k], &axis[k]);
+    return window_sum(w, (const struct profile *const[3]){&axis[0], &axis[1], &axis[2]}, gradient);
 }

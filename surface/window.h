@@ -47,6 +47,9 @@ static inline size_t window_row(const struct window *window, int layer, int y, i
 bool window_fill(struct window *window, const struct field *field, const double low[3], const double high[3]);
 void window_clear(struct window *window);
 
+/* The field and its gradient where axis[0], [1] and [2] are the profiles of x, y and z. */
+double window_sum(const struct window *window, const struct profile *const axis[3], double gradient[3]);
+
 /* The field and its gradient at a point of low .. high; *profiles becomes that of the point. */
 double window_value(const struct window *window, const double point[3], struct profiles *profiles,
                     double gradient[3]);
