@@ -76,6 +76,86 @@ static void an_exact_field_is_the_sum_over_all_cells_of_products_of_erf(void **s
     octree_clear(&tree);
 }
 
+/* One field of sigma s, cut off at 6 s along each axis as field.h says. */
+static double one_field(const double at[3], const double point[3], double s)
+{
+    double e = exp(-18), product = 1;
+    for (int axis = 0; axis < 3; axis++) {
+        double t = at[axis] - point[axis];
+        product *= fabs(t) < 6 * s ? (exp(-t * t / (2 * s * s)) - e) / (1 - e) : 0;
+    }
+    return product;
+}
+
+/* All fields of one cell at n^3 sub-cell centres. */
+static double fields_of_cell(const int cell[3], int n, const double point[3], double s)
+{
+    double sum = 0, weight = 1 / (pow(2 * M_PI, 1.5) * pow(n * s, 3));
+    for (int i = 0; i < n * n * n; i++) {
+        int part[3] = {i % n, i / n % n, i / (n * n)};
+        double at[3];
+        for (int axis = 0; axis < 3; axis++)
+            at[axis] = cell[axis] + (part[axis] + 0.5) / n;
+        sum += weight * one_field(at, point, s);
+    }
+    return sum;
+}
+
+/* All fields on one face of a cell, whose plane is 1 / 4 of the first cube away from the next: with A fields a
+ * unit of area the lattice's spacing is 4 / sqrt(A) cells. */
+static double fields_of_face(const int cell[3], int axis, bool upper, double area, const double point[3],
+                             double s)
+{
+    double spacing = 4 / sqrt(area), sum = 0, weight = spacing * spacing / (2 * M_PI * s * s);
+    int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (double p = (ceil(cell[u] / spacing - 0.5) + 0.5) * spacing; p < cell[u] + 1; p += spacing)
+        for (double q = (ceil(cell[v] / spacing - 0.5) + 0.5) * spacing; q < cell[v] + 1; q += spacing) {
+            double at[3];
+            at[axis] = cell[axis] + upper;
+            at[u] = p;
+            at[v] = q;
+            sum += weight * one_field(at, point, s);
+        }
+    return sum;
+}
+
+static void sampled_fields_are_the_sum_over_their_gaussians_one_by_one(void **state)
+{
+    (void)state;
+    struct octree tree = random_cells(2, 0.4, 3);
+    tree.coefficient[2] = -0.5f;
+    const struct field_settings kinds[] = {
+        {8, 0, 0.6, 6}, {1, 0, 0.3, 6}, {0, 700, 0.4, 6}, {27, 90, 0.5, 6}};
+    for (int k = 0; k < 4; k++) {
+        struct field field;
+        struct probe probe;
+        uint64_t seed = 4;
+        int n = (int)lround(cbrt((double)kinds[k].fields_per_cube));
+        open_field(&field, &probe, &tree, kinds[k]);
+        for (int i = 0; i < 60; i++) {
+            double point[3], gradient[3], expected = 0, s = kinds[k].sigma;
+            for (int axis = 0; axis < 3; axis++)
+                point[axis] = -1 + 6 * random_unit(&seed);
+            for (int number = 0; number < 64; number++) {
+                int cell[3] = {number & 3, number >> 2 & 3, number >> 4};
+                unsigned material = octree_at(&tree, cell[0], cell[1], cell[2]);
+                double sum = n > 0 && material ? fields_of_cell(cell, n, point, s) : 0;
+                for (int side = 0; side < 6 && material && kinds[k].fields_per_area > 0; side++) {
+                    int beyond[3] = {cell[0], cell[1], cell[2]};
+                    beyond[side / 2] += side % 2 ? 1 : -1;
+                    if (octree_at(&tree, beyond[0], beyond[1], beyond[2]) == 0)
+                        sum += fields_of_face(cell, side / 2, side % 2, kinds[k].fields_per_area, point, s);
+                }
+                expected += material == 2 ? -0.5 * sum : sum;
+            }
+            /* Some thousand terms of size 1, rounded. */
+            assert_near(probe_value(&probe, point, gradient), expected, 1e-12);
+        }
+        probe_clear(&probe);
+    }
+    octree_clear(&tree);
+}
+
 static void a_field_is_1_deep_inside_and_0_far_outside(void **state)
 {
     (void)state;
@@ -352,6 +432,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_exact_field_is_the_sum_over_all_cells_of_products_of_erf),
+        cmocka_unit_test(sampled_fields_are_the_sum_over_their_gaussians_one_by_one),
         cmocka_unit_test(a_field_is_1_deep_inside_and_0_far_outside),
         cmocka_unit_test(a_lone_cell_at_the_default_sigma_passes_the_default_threshold),
         cmocka_unit_test(the_gradient_is_that_of_central_differences_and_below_the_steepness),
