@@ -116,6 +116,14 @@ void scene_clear(struct scene *scene);
 /* The profile's value at x; 1 for an empty one. */
 double scene_profile_at(const struct scene_profile *profile, double x);
 
+/* Every key that a state depends on, as it is, a line PATH=VALUE each: equal lines, equal runs. Left out are what only pictures
+ * depend on, the end, and where files lie. */
+void scene_write_keys(const struct scene *scene, FILE *stream);
+
+/* Compares two such texts. False when they are equal; else says in text what differs first: "balloons[0].pressure is 12, and was
+ * 10". */
+bool scene_keys_differ(const char *was, const char *is, char *text, size_t size);
+
 /* Every key with its type, unit, range, default and meaning, as text (`--help-scene`), or as mdoc for the man page. */
 void scene_write_help(FILE *stream);
 void scene_write_mdoc(FILE *stream);

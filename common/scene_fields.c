@@ -19,6 +19,7 @@ const char *const scene_stereo_names[] = {"mono", "parallel", "crossed", NULL};
     {#key,    SCENE_##type, offsetof(struct owner, key), least, most, standard, unit, flags, \
      meaning, source,       CHOICES_##type(key)},
 #define LIVE                      SCENE_LIVE
+#define FREE                      SCENE_FREE
 
 #define TIME_ROW(...)             ROW(scene_time, __VA_ARGS__)
 #define VIEW_ROW(...)             ROW(scene_view, __VA_ARGS__)

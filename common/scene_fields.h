@@ -3,7 +3,8 @@
  * A row is
  *     X(key, TYPE, least, most, default, unit, flags, "meaning", "source")
  * The member of the struct in scene.h has the key's name. Defaults are written as in a scene file. Ranges of a vector
- * hold for each of its numbers. LIVE keys may stand in the schedule. Units are the scene's own (the paper gives none):
+ * hold for each of its numbers. LIVE keys may stand in the schedule; FREE ones may be others when a run
+ * is resumed. Units are the scene's own (the paper gives none):
  * length, mass and time are whatever the user takes them for, as long as they agree.
  */
 #ifndef COMMON_SCENE_FIELDS_H
@@ -17,36 +18,36 @@
     X(end, NUMBER, 0, 1e9, "10", "s", 0, "when the simulation ends", "paper 4: about 400 frames") \
     X(integrator, CHOICE, 0, 0, "\"symplectic-euler\"", "", 0, "method that moves the points", "paper 3.1")
 
-#define SCENE_VIEW_FIELDS(X)                                                                              \
-    X(size, SIZE, 16, 16384, "[1280, 480]", "pixels", 0, "width and height of the whole picture", "")     \
-    X(camera, VECTOR, -1e3, 1e3, "[0.0, 1.2, 8.0]", "radii", 0, "the eye, seen from the target", "")      \
-    X(target, VECTOR, -1e3, 1e3, "[0.0, 0.0, 0.0]", "radii", 0,                                           \
-      "what the eye looks at, from the balloons' centre", "")                                             \
-    X(field_of_view, NUMBER, 1, 150, "30", "degrees", 0, "vertical angle of the picture", "")             \
-    X(stereo, CHOICE, 0, 0, "\"parallel\"", "", 0, "one eye, or two side by side", "paper 3.7")           \
-    X(eye_distance, NUMBER, 0, 1, "0.05", "", 0, "between the eyes, over the distance to the target", "") \
-    X(rate, NUMBER, 1e-6, 1e6, "40", "1/s", 0, "frames drawn and rows logged a simulated second",         \
-      "paper 4: one a step")                                                                              \
-    X(playback, NUMBER, 1, 240, "25", "1/s", 0, "frames a second in the movie", "")
+#define SCENE_VIEW_FIELDS(X)                                                                                 \
+    X(size, SIZE, 16, 16384, "[1280, 480]", "pixels", FREE, "width and height of the whole picture", "")     \
+    X(camera, VECTOR, -1e3, 1e3, "[0.0, 1.2, 8.0]", "radii", FREE, "the eye, seen from the target", "")      \
+    X(target, VECTOR, -1e3, 1e3, "[0.0, 0.0, 0.0]", "radii", FREE,                                           \
+      "what the eye looks at, from the balloons' centre", "")                                                \
+    X(field_of_view, NUMBER, 1, 150, "30", "degrees", FREE, "vertical angle of the picture", "")             \
+    X(stereo, CHOICE, 0, 0, "\"parallel\"", "", FREE, "one eye, or two side by side", "paper 3.7")           \
+    X(eye_distance, NUMBER, 0, 1, "0.05", "", FREE, "between the eyes, over the distance to the target", "") \
+    X(rate, NUMBER, 1e-6, 1e6, "40", "1/s", FREE, "frames drawn and rows logged a simulated second",         \
+      "paper 4: one a step")                                                                                 \
+    X(playback, NUMBER, 1, 240, "25", "1/s", FREE, "frames a second in the movie", "")
 
-#define SCENE_BALLOON_FIELDS(X)                                                                            \
-    X(mesh, TEXT, 0, 0, "", "file", 0, ".ply, .stl or .obj, relative to the scene file", "paper 3.4")      \
-    X(radius, NUMBER, 0, 1e6, "45", "length", 0,                                                           \
-      "mean distance of points from their centre; 0: as in the mesh", "")                                  \
-    X(position, VECTOR, -1e6, 1e6, "[0.0, 0.0, 0.0]", "length", 0, "of that centre", "")                   \
-    X(point_mass, NUMBER, 1e-9, 1e9, "0.11", "mass", 0, "of each point", "paper 3.1")                      \
-    X(spring, NUMBER, 0, 1e9, "20", "force/length", 0, "spring constant of each edge", "paper 4")          \
-    X(spring_factor, NUMBER, 0, 1e6, "1", "", LIVE, "the spring constants' weight", "paper 3.5")           \
-    X(damping, NUMBER, 0, 1e9, "1", "force s/length", LIVE, "against the speed of closing along an edge",  \
-      "paper 2")                                                                                           \
-    X(threshold, NUMBER, 1, 1e300, "2", "", LIVE,                                                          \
-      "an edge lets go at this length over the mean rest length", "paper 4")                               \
-    X(pressure, NUMBER, -1e9, 1e9, "10", "force", LIVE, "on each point, along its normal", "paper 3.2")    \
-    X(colour, VECTOR, 0, 1, "[0.85, 0.09, 0.12]", "", 0, "red, green and blue (sRGB) of the skin at rest", \
-      "")                                                                                                  \
-    X(opacity, NUMBER, 0.01, 1, "0.97", "", 0, "of the skin at rest; it thins with the stretch",           \
-      "paper 3.3")                                                                                         \
-    X(shininess, NUMBER, 1, 1000, "12", "", 0,                                                             \
+#define SCENE_BALLOON_FIELDS(X)                                                                           \
+    X(mesh, TEXT, 0, 0, "", "file", 0, ".ply, .stl or .obj, relative to the scene file", "paper 3.4")     \
+    X(radius, NUMBER, 0, 1e6, "45", "length", 0,                                                          \
+      "mean distance of points from their centre; 0: as in the mesh", "")                                 \
+    X(position, VECTOR, -1e6, 1e6, "[0.0, 0.0, 0.0]", "length", 0, "of that centre", "")                  \
+    X(point_mass, NUMBER, 1e-9, 1e9, "0.11", "mass", 0, "of each point", "paper 3.1")                     \
+    X(spring, NUMBER, 0, 1e9, "20", "force/length", 0, "spring constant of each edge", "paper 4")         \
+    X(spring_factor, NUMBER, 0, 1e6, "1", "", LIVE, "the spring constants' weight", "paper 3.5")          \
+    X(damping, NUMBER, 0, 1e9, "1", "force s/length", LIVE, "against the speed of closing along an edge", \
+      "paper 2")                                                                                          \
+    X(threshold, NUMBER, 1, 1e300, "2", "", LIVE,                                                         \
+      "an edge lets go at this length over the mean rest length", "paper 4")                              \
+    X(pressure, NUMBER, -1e9, 1e9, "10", "force", LIVE, "on each point, along its normal", "paper 3.2")   \
+    X(colour, VECTOR, 0, 1, "[0.85, 0.09, 0.12]", "", FREE,                                               \
+      "red, green and blue (sRGB) of the skin at rest", "")                                               \
+    X(opacity, NUMBER, 0.01, 1, "0.97", "", FREE, "of the skin at rest; it thins with the stretch",       \
+      "paper 3.3")                                                                                        \
+    X(shininess, NUMBER, 1, 1000, "12", "", FREE,                                                         \
       "exponent of the highlight at rest; it grows with the stretch", "paper 3.3")
 
 #define SCENE_SPRING_BY_HEIGHT_FIELDS(X)                                                             \
@@ -76,7 +77,10 @@ enum scene_type {
     SCENE_PAIRS,  /* struct scene_profile, owned */
 };
 
-enum { SCENE_LIVE = 1 };
+enum {
+    SCENE_LIVE = 1,
+    SCENE_FREE = 2, /* no state depends on it: pictures, the end */
+};
 
 struct scene_field {
     const char *key;

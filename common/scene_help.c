@@ -37,6 +37,8 @@ static void write_facts(FILE *stream, const struct scene_field *field)
         fprintf(stream, ", default %s", field->standard);
     if (field->flags & SCENE_LIVE)
         fputs(", may be scheduled", stream);
+    if (field->flags & SCENE_FREE)
+        fputs(", may be another when resumed", stream);
     if (*field->source)
         fprintf(stream, " (%s)", field->source);
 }

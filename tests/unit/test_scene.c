@@ -177,6 +177,60 @@ static void every_default_is_within_its_own_range(void **state)
         }
 }
 
+static char *keys_of(const struct scene *scene)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *stream = open_memstream(&text, &size);
+    assert_non_null(stream);
+    scene_write_keys(scene, stream);
+    assert_false(fclose(stream));
+    return text;
+}
+
+/* Sets the key, and returns what differs then. */
+static const char *difference(const char *assignment)
+{
+    static char text[256];
+    struct error err = {0};
+    struct scene scene = {0};
+    assert_ok(scene_from_mesh("fox.ply", &scene, &err), &err);
+    char *was = keys_of(&scene);
+    assert_ok(scene_set(&scene, assignment, &err), &err);
+    char *is = keys_of(&scene);
+    if (!scene_keys_differ(was, is, text, sizeof text))
+        strcpy(text, "nothing");
+    free(was);
+    free(is);
+    scene_clear(&scene);
+    return text;
+}
+
+static void scenes_are_told_apart_by_the_keys_that_a_state_depends_on(void **state)
+{
+    (void)state;
+    assert_string_equal(difference("balloons[0].pressure=10"), "nothing");
+    assert_string_equal(difference("balloons[0].pressure=12.5"), "balloons[0].pressure is 12.5, and was 10");
+    assert_string_equal(difference("time.step=0.1"),
+                        "time.step is 0.10000000000000001, and was 0.025000000000000001");
+    assert_string_equal(difference("balloons[0].position=[1, 2, 3]"),
+                        "balloons[0].position is [1, 2, 3], and was [0, 0, 0]");
+    assert_string_equal(difference("balloons[0].rip.at=1"), "balloons[0].rip.at is 1, and was not there");
+    assert_string_equal(difference("balloons[0].spring_by_height.profile=((0, 1), (1, 2))"),
+                        "balloons[0].spring_by_height.profile is [0, 1][1, 2], and was not there");
+    assert_string_equal(difference("schedule[0].pressure=3"), "schedule[0].at is 0, and was not there");
+    assert_string_equal(difference("view.camera=[0, 0, 5]"), "nothing");
+    assert_string_equal(difference("view.stereo=mono"), "nothing");
+    assert_string_equal(difference("balloons[0].colour=[0, 0, 1]"), "nothing");
+    assert_string_equal(difference("balloons[0].mesh=cat.ply"), "nothing");
+
+    char text[64];
+    assert_true(scene_keys_differ("a=1\nb=2\n", "a=1\n", text, sizeof text));
+    assert_string_equal(text, "b was 2, and is not there any more");
+    assert_true(scene_keys_differ("", "nonsense", text, sizeof text));
+    assert_false(scene_keys_differ("a=1\nb=2\n", "b=2\na=1\n", text, sizeof text));
+}
+
 int main(void)
 {
     close(mkstemp(path));
@@ -186,6 +240,7 @@ int main(void)
         cmocka_unit_test(what_is_wrong_is_named_with_its_line),
         cmocka_unit_test(set_changes_any_key_by_its_path),
         cmocka_unit_test(every_default_is_within_its_own_range),
+        cmocka_unit_test(scenes_are_told_apart_by_the_keys_that_a_state_depends_on),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     unlink(path);
