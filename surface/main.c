@@ -18,6 +18,7 @@ enum option_key {
     KEY_SIGMA,
     KEY_THRESHOLD,
     KEY_CUTOFF,
+    KEY_RELAX,
     KEY_SEEDS,
     KEY_SEED,
     KEY_INFO,
@@ -37,6 +38,9 @@ static const struct argp_option option_list[] = {
      "Width of the Gaussians, in sides of the finest cell (default 0.35), or of the first cube: 0.02u", 0},
     {"threshold", KEY_THRESHOLD, "T", 0, "The surface is where the field is T (default 0.5)", 0},
     {"cutoff", KEY_CUTOFF, "R", 0, "Gaussians end at R sigma (default 6)", 0},
+    {"relax", KEY_RELAX, "N", 0,
+     "Rounds of smoothing along the surface that make the triangles regular (default 10); 0: plain marching cubes",
+     0},
     {"seeds", KEY_SEEDS, "HOW", 0, "Where following begins: descent (default) or random", 0},
     {"seed", KEY_SEED, "N", 0, "Of the random points (default 1)", 0},
     {"info", KEY_INFO, NULL, 0, "Print figures about the mesh", 0},
@@ -144,6 +148,9 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         break;
     case KEY_CUTOFF:
         options->field.cutoff = command_number(state, "--cutoff", argument, 2, 8);
+        break;
+    case KEY_RELAX:
+        options->relax = (unsigned)command_whole(state, "--relax", argument, 0, 1000);
         break;
     case KEY_SEEDS:
         set_seeds(arguments, state, argument);

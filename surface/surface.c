@@ -2,13 +2,14 @@
 
 #include "surface/largest.h"
 #include "surface/mesher.h"
+#include "surface/relax.h"
 
 #include <math.h>
 #include <unistd.h>
 
 struct surface_options surface_defaults(void)
 {
-    return (struct surface_options){.field = {FIELDS_EXACT, 0, 0.35, 6}, .threshold = 0.5};
+    return (struct surface_options){.field = {FIELDS_EXACT, 0, 0.35, 6}, .threshold = 0.5, .relax = 10};
 }
 
 /* What one sculpture's surface is made with. */
@@ -157,6 +158,23 @@ static enum status explain_nothing(const struct making *making, double cube, str
         cube / making->field.side, works / making->field.side);
 }
 
+static enum status relax(const struct making *making, struct mesh *mesh, struct error *err)
+{
+    const struct surface_options *o = making->options;
+    const struct relax_settings settings = {.field = &making->field,
+                                            .threshold = o->threshold,
+                                            .rounds = o->relax,
+                                            .triangles = o->triangles,
+                                            .pool = making->pool,
+                                            .progress = o->progress,
+                                            .progress_context = o->progress_context};
+    struct relax_stats stats;
+    enum status status = relax_mesh(mesh, &settings, &stats, err);
+    making->stats->evaluations += stats.evaluations;
+    making->stats->worst_residual = stats.worst_residual;
+    return status;
+}
+
 static enum status make_at(const struct making *making, double cube, struct mesh *mesh, struct error *err)
 {
     struct mesher m;
@@ -166,7 +184,7 @@ static enum status make_at(const struct making *making, double cube, struct mesh
     add_stats(&m, making->stats);
     making->stats->bytes = m.bytes;
     mesher_clear(&m);
-    return status;
+    return status == STATUS_OK && making->options->relax ? relax(making, mesh, err) : status;
 }
 
 static enum status check_options(const struct surface_options *o, struct error *err)

@@ -43,6 +43,7 @@ struct surface_options {
     double cube_size;            /* in units of the first cube; 0, the default: a third of the finest cell, or
                                     1/24 of the sculpture's longest extent where that is less */
     uint32_t triangles;          /* 0, or the number of triangles to choose the cube size for */
+    unsigned relax;              /* rounds of relaxation, 0 .. 1000; 10; 0: plain marching cubes */
     enum surface_seeds seeds;
     uint64_t seed;                                /* of the random points */
     unsigned threads;                             /* 0, the default: as many as the machine has */
