@@ -1,7 +1,10 @@
 #include "sculpt/window_balloon.h"
 
+#include "common/array.h"
 #include "common/vec3.h"
 #include "surface/surface.h"
+
+#include <stdlib.h>
 
 enum { BALLOON_TRIANGLES = 4000 };
 
@@ -9,6 +12,25 @@ enum { BALLOON_TRIANGLES = 4000 };
 static double sigma_for(unsigned depth)
 {
     return depth <= 5 ? 0.7 : depth == 6 ? 1 : depth == 7 ? 1.5 : 2;
+}
+
+/* Thick and glossy: light shows through a little where the film is seen straight on. */
+static enum status make_film(struct balloon *balloon, struct error *err)
+{
+    const uint32_t count = balloon->mesh.triangle_count;
+    balloon->opacity = array_new(count, sizeof *balloon->opacity);
+    balloon->shininess = array_new(count, sizeof *balloon->shininess);
+    if (!balloon->opacity || !balloon->shininess)
+        return error_no_memory(err, "the balloon");
+    for (uint32_t i = 0; i < count; i++) {
+        balloon->opacity[i] = 0.94f;
+        balloon->shininess[i] = 60;
+    }
+    balloon->skin = (struct render_skin){.mesh = &balloon->mesh,
+                                         .opacity = balloon->opacity,
+                                         .shininess = balloon->shininess,
+                                         .colour = {0.69f, 0.008f, 0.013f}};
+    return STATUS_OK;
 }
 
 enum status balloon_mesh(struct balloon *balloon, const struct octree *tree, struct error *err)
@@ -19,7 +41,10 @@ enum status balloon_mesh(struct balloon *balloon, const struct octree *tree, str
     options.field.sigma = sigma_for(tree->depth);
     options.triangles = BALLOON_TRIANGLES;
     enum status status = surface_make(tree, &options, &balloon->mesh, &stats, err);
-    balloon->skin = (struct render_skin){.mesh = &balloon->mesh, .colour = {0.69f, 0.008f, 0.013f}};
+    if (!status)
+        status = make_film(balloon, err);
+    if (status)
+        balloon_clear(balloon);
     return status;
 }
 
@@ -68,6 +93,8 @@ void balloon_clear(struct balloon *balloon)
     sim_clear(&balloon->sim);
     scene_clear(&balloon->scene);
     mesh_clear(&balloon->mesh);
+    free(balloon->opacity);
+    free(balloon->shininess);
     *balloon = (struct balloon){0};
 }
 

@@ -16,8 +16,9 @@
 
 struct balloon {
     struct mesh mesh;        /* in the cube's units */
-    struct render_skin skin; /* of that mesh */
-    bool inflated;           /* from here on it is the sim's: */
+    struct render_skin skin; /* of that mesh, as taut as the simulator's at rest: */
+    float *opacity, *shininess;
+    bool inflated; /* from here on it is the sim's: */
     struct scene scene;
     struct sim sim;
     struct skins skins;

@@ -67,11 +67,13 @@ static enum status draw_sculpture(struct app *app, const struct render_view *vie
     if (status)
         return status;
     const double drawn = app_seconds();
+    struct render_view smooth = *view;
+    smooth.smooth_edges = !moving;
     scene->solid = app->shown->solid;
-    status = render_show(app->render, view, scene, err);
-    if (app->shown == &app->levels[level])
+    status = render_show(app->render, &smooth, scene, err);
+    if (moving && app->shown == &app->levels[level])
         app_adapt(app, rest, app_seconds() - drawn);
-    app->fine = app->shown == &app->levels[rest];
+    app->fine = !moving && app->shown == &app->levels[rest];
     return status;
 }
 
@@ -89,6 +91,7 @@ void app_draw(struct app *app)
         scene.line_count = make_lines(app, lines);
         status = draw_sculpture(app, &view, &scene, &err);
     } else {
+        view.sorted = view.smooth_edges = true;
         if (app->open)
             scene.skins = balloon_skins(&app->balloon, &scene.skin_count, &view.camera);
         status = render_show(app->render, &view, &scene, &err);

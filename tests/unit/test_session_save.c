@@ -1,0 +1,211 @@
+/* Saving beside carving: what is written is a snapshot, and no kill at any moment loses what a hand did. */
+#include "check.h"
+#include "folder.h"
+#include "sculpt/session.h"
+
+#include <unistd.h>
+
+static struct session session;
+static struct error err;
+
+static void open_new(void)
+{
+    unlink("new.oct");
+    assert_ok(session_open(&session, "new.oct", 5, false, &err), &err);
+}
+
+/* From the front, at x, y. */
+static void click(double x, double y)
+{
+    session_aim(&session, (double[3]){x, y, 3}, (double[3]){0, 0, -1});
+    assert_ok(session_press(&session, &err), &err);
+    assert_ok(session_release(&session, &err), &err);
+}
+
+/* As a kill leaves the files: the journal stays, unlocked. */
+static void kill_session(void)
+{
+    journal_close(session.journal, false);
+    session.journal = NULL;
+    session_clear(&session);
+}
+
+static void make(const char *script, struct octree *tree)
+{
+    struct chips chips = {0};
+    assert_ok(chips_parse("script", script, strlen(script), &chips, &err), &err);
+    assert_ok(chips_begin(&chips, 0, tree, &err), &err);
+    assert_ok(chips_run(tree, &chips, NULL, &err), &err);
+    chips_clear(&chips);
+}
+
+static void assert_tree(const struct octree *tree, const char *script)
+{
+    struct octree want = {0};
+    make(script, &want);
+    assert_true(octree_equal(tree, &want));
+    octree_clear(&want);
+}
+
+static void assert_file(const char *path, const char *script)
+{
+    struct octree tree = {0};
+    assert_ok(octree_load(path, &tree, &err), &err);
+    assert_tree(&tree, script);
+    octree_clear(&tree);
+}
+
+#define FIRST  "depth 5\nchip sphere 0.3 0.3 1 0.08\n"
+#define SECOND "chip sphere 0.7 0.7 1 0.08\n"
+#define THIRD  "chip sphere 0.5 0.2 1 0.08\n"
+
+static void what_is_carved_while_it_saves_is_not_in_the_file_and_unsaved(void **state)
+{
+    (void)state;
+    enum status status;
+    open_new();
+    click(0.3, 0.3);
+    assert_ok(session_save_begin(&session, NULL, NULL, &err), &err);
+    click(0.7, 0.7);
+    assert_int_equal(session_save_begin(&session, NULL, NULL, &err), STATUS_RESOURCE); /* one at a time */
+    assert_true(session_write_ended(&session, true, &status, &err));
+    assert_int_equal(status, STATUS_OK);
+    assert_false(session_write_ended(&session, true, &status, &err));
+    assert_file("new.oct", FIRST);
+    assert_true(session.unsaved);
+    kill_session();
+    assert_ok(session_open(&session, "new.oct", 5, true, &err), &err);
+    assert_tree(&session.tree, FIRST SECOND);
+    session_clear(&session);
+}
+
+static void undo_of_steps_before_a_new_name_survives_a_kill(void **state)
+{
+    (void)state;
+    unlink("other.oct");
+    open_new();
+    click(0.3, 0.3);
+    click(0.7, 0.7);
+    assert_ok(session_save_as(&session, "other.oct", NULL, &err), &err);
+    assert_false(session.unsaved);
+    assert_int_equal(access("new.oct.journal", F_OK), -1);
+    assert_true(session_undo(&session, &err));
+    click(0.5, 0.2);
+    kill_session();
+    assert_file("other.oct", FIRST SECOND);
+    assert_ok(session_open(&session, "other.oct", 5, true, &err), &err);
+    assert_tree(&session.tree, FIRST THIRD);
+    assert_true(session.unsaved);
+    session_clear(&session);
+}
+
+static void a_save_that_fails_leaves_the_name_the_journal_and_the_work_as_they_were(void **state)
+{
+    (void)state;
+    open_new();
+    click(0.3, 0.3);
+    assert_int_equal(session_save_as(&session, "nowhere/other.oct", NULL, &err), STATUS_FILE);
+    assert_string_equal(session.path, "new.oct");
+    assert_true(session.unsaved);
+    kill_session();
+    assert_ok(session_open(&session, "new.oct", 5, true, &err), &err);
+    assert_tree(&session.tree, FIRST);
+    session_clear(&session);
+}
+
+static void chunks_that_are_not_known_are_kept(void **state)
+{
+    (void)state;
+    struct octree tree = {0};
+    struct octree_chunks chunks = {0};
+    struct bytes data = {(unsigned char *)strdup("of tomorrow"), 11};
+    make(FIRST, &tree);
+    assert_ok(octree_chunks_put(&chunks, "NEXT", &data, &err), &err);
+    assert_ok(octree_save_with(&tree, &chunks, "new.oct", &err), &err);
+    octree_chunks_clear(&chunks);
+    octree_clear(&tree);
+
+    assert_ok(session_open(&session, "new.oct", 5, false, &err), &err);
+    click(0.7, 0.7);
+    kill_session();
+    assert_ok(session_open(&session, "new.oct", 5, true, &err), &err); /* recovered work keeps them too */
+    assert_ok(session_save(&session, NULL, &err), &err);
+    session_clear(&session);
+    assert_ok(octree_load_with("new.oct", &tree, &chunks, &err), &err);
+    const struct octree_chunk *next = octree_chunks_find(&chunks, "NEXT");
+    assert_non_null(next);
+    assert_int_equal(next->data.size, 11);
+    assert_memory_equal(next->data.data, "of tomorrow", 11);
+    assert_tree(&tree, FIRST SECOND);
+    octree_chunks_clear(&chunks);
+    octree_clear(&tree);
+}
+
+static void what_has_no_file_yet_is_unsaved_work_that_survives_a_kill(void **state)
+{
+    (void)state;
+    struct octree tree = {0};
+    unlink("new.oct");
+    make(FIRST, &tree);
+    assert_ok(session_begin(&session, "new.oct", &tree, &err), &err);
+    assert_null(tree.blocks);
+    assert_true(session.unsaved && session.log_lost);
+    click(0.7, 0.7);
+    kill_session();
+    assert_ok(session_open(&session, "new.oct", 5, true, &err), &err);
+    assert_tree(&session.tree, FIRST SECOND);
+    assert_ok(session_save(&session, NULL, &err), &err);
+    session_clear(&session);
+
+    make(FIRST, &tree); /* a name that is taken is refused, and the tree is the caller's still */
+    assert_int_equal(session_begin(&session, "new.oct", &tree, &err), STATUS_FILE);
+    assert_tree(&tree, FIRST);
+    octree_clear(&tree);
+}
+
+static void steps_beyond_the_undo_memory_are_counted(void **state)
+{
+    (void)state;
+    open_new();
+    session_limit_undo(&session, 4096);
+    size_t steps = 0;
+    while (session.forgotten == 0 && steps < 100) {
+        click(0.1 + 0.008 * (double)steps, 0.5);
+        steps++;
+    }
+    assert_in_range(session.forgotten, 1, steps);
+    size_t undone = 0;
+    while (session_undo(&session, &err))
+        undone++;
+    assert_int_equal(undone + session.forgotten, steps);
+    session_clear(&session);
+}
+
+static void a_cube_that_goes_as_a_whole_is_a_step(void **state)
+{
+    (void)state;
+    unlink("new.oct");
+    assert_ok(session_open(&session, "new.oct", 0, false, &err), &err);
+    session.radius = 0.5;
+    session.depth = 1;
+    click(0.5, 0.5);
+    assert_int_equal(session.tree.root, 0);
+    assert_true(session.unsaved);
+    assert_true(session_undo(&session, &err));
+    assert_int_equal(session.tree.root, 1);
+    session_clear(&session);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_carved_while_it_saves_is_not_in_the_file_and_unsaved),
+        cmocka_unit_test(undo_of_steps_before_a_new_name_survives_a_kill),
+        cmocka_unit_test(a_save_that_fails_leaves_the_name_the_journal_and_the_work_as_they_were),
+        cmocka_unit_test(chunks_that_are_not_known_are_kept),
+        cmocka_unit_test(what_has_no_file_yet_is_unsaved_work_that_survives_a_kill),
+        cmocka_unit_test(steps_beyond_the_undo_memory_are_counted),
+        cmocka_unit_test(a_cube_that_goes_as_a_whole_is_a_step),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
