@@ -4,7 +4,9 @@
 #include <stdint.h>
 #include <string.h>
 
-const char *const scene_integrator_names[] = {"symplectic-euler", "explicit-euler", NULL};
+const char *const scene_integrator_names[] = {
+    "symplectic-euler", "explicit-euler", "verlet", "rk4", "rkn4", "rk-adaptive", NULL};
+const char *const scene_guard_names[] = {"substep", "refuse", "off", NULL};
 const char *const scene_stereo_names[] = {"mono", "parallel", "crossed", NULL};
 
 #define CHOICES_NUMBER(key) NULL

@@ -1,36 +1,8 @@
 /* What a run that came to grief says: where, when, and what is likely to blame. */
-#include "sim/sim.h"
+#include "common/vec3.h"
+#include "sim/guard.h"
 
 #include <math.h>
-#include <stdlib.h>
-
-static uint32_t largest_degree(const struct sim *sim, const struct sim_balloon *balloon)
-{
-    const uint32_t points = balloon->point_end - balloon->point_begin;
-    uint32_t *degree = calloc(points, sizeof *degree), largest = 0;
-    if (!degree)
-        return 0;
-    for (uint32_t e = balloon->edge_begin; e < balloon->edge_end; e++)
-        for (int k = 0; k < 2; k++) {
-            uint32_t d = ++degree[sim->edge_point[e][k] - balloon->point_begin];
-            largest = d > largest ? d : largest;
-        }
-    free(degree);
-    return largest;
-}
-
-double sim_stable_step(const struct sim *sim, const struct sim_balloon *balloon)
-{
-    double k = 0;
-    for (uint32_t e = balloon->edge_begin; e < balloon->edge_end; e++)
-        k = fmax(k, sim->current_spring_const[e]);
-    const double mu = 2.0 * largest_degree(sim, balloon), d = balloon->now->damping,
-                 m = balloon->scene->point_mass;
-    if (!(mu > 0) || (k == 0 && d == 0))
-        return 0;
-    return 4 * m / mu /
-           (d + sqrt(d * d + 4 * k * m / mu)); /* the positive root, in the form that does not cancel */
-}
 
 static bool is_nowhere(const struct sim *sim, uint32_t p)
 {
@@ -40,25 +12,58 @@ static bool is_nowhere(const struct sim *sim, uint32_t p)
     return false;
 }
 
-enum status sim_diverged(const struct sim *sim, struct error *err)
+/* The first point that is nowhere, or else the one with the most energy. */
+static uint32_t worst_point(const struct sim *sim)
 {
-    uint32_t p = 0;
-    while (p + 1 < sim->point_count && !is_nowhere(sim, p))
-        p++;
-    size_t b = 0;
-    while (b + 1 < sim->balloon_count && p >= sim->balloons[b].point_end)
+    uint32_t worst = 0;
+    double most = -1;
+    for (uint32_t p = 0; p < sim->point_count; p++) {
+        if (is_nowhere(sim, p))
+            return p;
+        const double energy = sim->mass[p] * vec3_dot(sim->velocity[p], sim->velocity[p]);
+        if (energy > most) {
+            most = energy;
+            worst = p;
+        }
+    }
+    return worst;
+}
+
+/* " on an edge to point 7 of length 3e9": of the point's active edges the longest, or one that has no length any more. */
+static void describe_edge(const struct sim *sim, const struct sim_balloon *b, uint32_t p, char *text,
+                          size_t size)
+{
+    uint32_t other = p;
+    double longest = -1;
+    for (uint32_t e = b->edge_begin; e < b->edge_end && !isnan(longest); e++) {
+        const uint32_t *ends = sim->edge_point[e];
+        const double length = sim_edge_length(sim, e);
+        if (sim->edge_active[e] && (ends[0] == p || ends[1] == p) && !(length <= longest)) {
+            longest = length;
+            other = ends[0] == p ? ends[1] : ends[0];
+        }
+    }
+    if (other == p)
+        snprintf(text, size, ", with no edge left");
+    else
+        snprintf(text, size, ", on an edge of length %g to point %u", longest, other - b->point_begin);
+}
+
+enum status sim_diverged(struct sim *sim, double energy, struct error *err)
+{
+    const uint32_t p = worst_point(sim);
+    const struct sim_balloon *b = sim->balloons;
+    while (p >= b->point_end)
         b++;
-    const double stable = sim_stable_step(sim, &sim->balloons[b]);
-    char advice[160] = "";
-    if (stable > 0 && sim->step > stable)
-        snprintf(advice, sizeof advice,
-                 "; time.step is %g, and steps up to %.3g are surely stable with these springs and dampers",
-                 sim->step, stable);
+    char edge[96], advice[256] = "the step is surely stable: is a scene so violent meant?";
+    describe_edge(sim, b, p, edge, sizeof edge);
+    if (sim->whole_step > guard_stable_step(sim))
+        guard_describe(sim, advice, sizeof advice);
     return error_set(
         err, STATUS_DIVERGED,
         "%s: diverged at time %g (step %llu): point %u of balloons[%zu] is at (%g, %g, %g), moving at "
-        "(%g, %g, %g)%s",
-        sim->scene->path, sim->time, (unsigned long long)sim->steps, p - sim->balloons[b].point_begin, b,
-        sim->position[p][0], sim->position[p][1], sim->position[p][2], sim->velocity[p][0],
-        sim->velocity[p][1], sim->velocity[p][2], advice);
+        "(%g, %g, %g)%s; kinetic energy %g; %s",
+        sim->scene->path, sim->time, (unsigned long long)sim->steps, p - b->point_begin,
+        (size_t)(b - sim->balloons), sim->position[p][0], sim->position[p][1], sim->position[p][2],
+        sim->velocity[p][0], sim->velocity[p][1], sim->velocity[p][2], edge, energy, advice);
 }

@@ -1,77 +1,17 @@
-#include "sim/sim.h"
+/* The methods that move the points: a line each. */
+#include "sim/methods.h"
 
-#include <math.h>
 #include <string.h>
 
-/* v += a dt, then x += v dt: velocity first. The update with which the paper's claims hold. */
-static void part_velocity_first(struct sim *sim, const struct sim_part *part, void *context)
-{
-    const double dt = *(double *)context;
-    for (uint32_t p = part->point_begin; p < part->point_end; p++) {
-        const double kick = dt / sim->mass[p];
-        for (int i = 0; i < 4; i++) {
-            sim->velocity[p][i] += sim->force[p][i] * kick;
-            sim->position[p][i] += sim->velocity[p][i] * dt;
-        }
-    }
-}
-
-/* x += v dt, then v += a dt with the acceleration at the old place: the textbook's Euler. */
-static void part_position_first(struct sim *sim, const struct sim_part *part, void *context)
-{
-    const double dt = *(double *)context;
-    for (uint32_t p = part->point_begin; p < part->point_end; p++) {
-        const double kick = dt / sim->mass[p];
-        for (int i = 0; i < 4; i++) {
-            sim->position[p][i] += sim->velocity[p][i] * dt;
-            sim->velocity[p][i] += sim->force[p][i] * kick;
-        }
-    }
-}
-
-static void advance_scalars(struct sim *sim, double dt)
-{
-    for (uint32_t i = 0; i < sim->scalar_count; i++)
-        sim->scalar[i] += sim->scalar_rate[i] * dt;
-}
-
-static enum status symplectic_euler(struct sim *sim, double dt, struct error *err)
-{
-    (void)err;
-    sim_forces(sim);
-    sim_each_part(sim, part_velocity_first, &dt);
-    advance_scalars(sim, dt);
-    return STATUS_OK;
-}
-
-static enum status explicit_euler(struct sim *sim, double dt, struct error *err)
-{
-    (void)err;
-    sim_forces(sim);
-    sim_each_part(sim, part_position_first, &dt);
-    advance_scalars(sim, dt);
-    return STATUS_OK;
-}
-
-static const struct integrator symplectic = {.name = "symplectic-euler",
-                                             .order = 1,
-                                             .flags = INTEGRATOR_SYMPLECTIC,
-                                             .evaluations = 1,
-                                             .oscillation_limit = 2,
-                                             .decay_limit = 2,
-                                             .advance = symplectic_euler,
-                                             .source = "paper 3.1, velocity first"};
-
-/* Any step is unstable without damping. */
-static const struct integrator textbook = {.name = "explicit-euler",
-                                           .order = 1,
-                                           .evaluations = 1,
-                                           .oscillation_limit = 0,
-                                           .decay_limit = 2,
-                                           .advance = explicit_euler,
-                                           .source = "paper 3.1, position first"};
-
-const struct integrator *const integrators[] = {&symplectic, &textbook, NULL};
+const struct integrator *const integrators[] = {
+    &integrator_symplectic_euler,
+    &integrator_explicit_euler,
+    &integrator_verlet,
+    &integrator_rk4,
+    &integrator_rkn4,
+    &integrator_rk_adaptive,
+    NULL,
+};
 
 const struct integrator *integrator_find(const char *name)
 {

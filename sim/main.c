@@ -1,5 +1,6 @@
 /* balloon-sim: inflates the balloons of a scene until they burst. */
 #include "common/command.h"
+#include "sim/guard.h"
 #include "sim/run.h"
 
 #include <stdlib.h>
@@ -45,18 +46,17 @@ static enum status open_sim(struct sim *sim, const struct scene *scene, const st
     return status;
 }
 
-static void print_check(const struct sim *sim)
+static void print_check(struct sim *sim)
 {
     for (size_t i = 0; i < sim->balloon_count; i++) {
         const struct sim_balloon *b = &sim->balloons[i];
         printf("balloons[%zu]: %s: %u points, %u edges, %u triangles, mean radius %.6g, mean edge %.6g\n", i,
                b->scene->mesh, b->point_end - b->point_begin, b->edge_end - b->edge_begin,
                b->triangle_end - b->triangle_begin, b->radius, b->mean_rest_length);
-        const double stable = sim_stable_step(sim, b);
-        if (stable > 0)
-            printf("balloons[%zu]: steps up to %.4g are surely stable; time.step is %g\n", i, stable,
-                   sim->step);
     }
+    char guard[256];
+    guard_describe(sim, guard, sizeof guard);
+    printf("%s: %s\n", sim->scene->path, guard);
     const struct integrator *method = sim->integrator;
     printf("%s: good: %zu bytes, %.0f steps of %s (order %d; %s)\n", sim->scene->path, sim->bytes,
            sim->scene->time.end / sim->step, method->name, method->order, method->source);

@@ -3,6 +3,7 @@
 #include "common/array.h"
 #include "common/threads.h"
 #include "common/vec3.h"
+#include "sim/guard.h"
 #include "sim/kernels.h"
 #include "sim/vectors.h"
 
@@ -14,6 +15,8 @@ void sim_clear(struct sim *sim)
     if (sim->integrator && sim->integrator->close)
         sim->integrator->close(sim);
     parts_close(sim);
+    look_close(sim);
+    guard_close(sim);
     void *arrays[] = {sim->normal,
                       sim->position,
                       sim->velocity,
@@ -227,6 +230,7 @@ enum status sim_add_scalars(struct sim *sim, uint32_t count, uint32_t *first, st
                 lengthen(&sim->scalar_rate, sim->scalar_count, count);
     for (int i = 0; i < sim->integrator->vectors && room; i++)
         room = lengthen(&sim->scalar_scratch[i], sim->scalar_count, count);
+    room = room && lengthen(&sim->past.scalar, sim->scalar_count, count);
     if (!room)
         return error_no_memory(err, "the quantities that are integrated");
     *first = sim->scalar_count;
@@ -247,6 +251,12 @@ static enum status build(struct sim *sim, const struct mesh *meshes, unsigned wo
         status = parts_open(sim, err);
     if (!status)
         status = effects_resolve(sim, err);
+    if (!status)
+        status = look_open(sim, err);
+    if (!status)
+        effects_run(sim, EFFECT_OPEN);
+    if (!status)
+        status = guard_open(sim, err);
     if (!status && sim->integrator->open)
         status = sim->integrator->open(sim, err);
     return status;
@@ -263,7 +273,6 @@ enum status sim_open(struct sim *sim, const struct scene *scene, const struct me
         sim_clear(sim);
         return status;
     }
-    effects_run(sim, EFFECT_OPEN);
     sim_forces(sim); /* so that a look at the first state finds its normals */
     return STATUS_OK;
 }

@@ -1,6 +1,7 @@
 #include "sim/run.h"
 #include "common/command.h"
 #include "sim/film.h"
+#include "sim/guard.h"
 #include "sim/ledger.h"
 
 #include <inttypes.h>
@@ -24,6 +25,17 @@ static enum status show_state(struct outputs *outputs, struct sim *sim, struct e
     return outputs->film ? film_frame(outputs->film, err) : STATUS_OK;
 }
 
+/* Says once that steps are split, and why. */
+static void note_guard(struct sim *sim, bool *said)
+{
+    char text[256];
+    if (*said || sim->substeps == 1)
+        return;
+    *said = true;
+    guard_describe(sim, text, sizeof text);
+    command_note("%s", text);
+}
+
 /* Steps to the end. *first_break becomes the time at which the first edge broke; it stays as it was when none did. */
 static enum status step_to_end(struct sim *sim, struct outputs *outputs, double *first_break,
                                struct error *err)
@@ -31,9 +43,11 @@ static enum status step_to_end(struct sim *sim, struct outputs *outputs, double 
     const double end = sim->scene->time.end;
     enum status status = show_state(outputs, sim, err);
     const double steps = end / sim->step;
+    bool said = false;
     progress_begin("inflating", "steps", steps);
     while (!status && sim->time + sim->step / 2 < end) {
         status = sim_step(sim, err);
+        note_guard(sim, &said);
         if (!status)
             status = show_state(outputs, sim, err);
         if (sim->broken && *first_break < 0)

@@ -1,5 +1,6 @@
 /* "The user can change the time interval or the internal air pressure between any time steps" (paper 3.5). */
 #include "common/scene_fields.h"
+#include "sim/guard.h"
 #include "sim/ledger.h"
 
 #include <string.h>
@@ -34,11 +35,14 @@ static void change_step(struct sim *sim, double value)
 {
     sim->time_base = sim->time;
     sim->steps_since = 0;
-    sim->step = value;
+    sim->whole_step = value;
+    sim->step = value / sim->substeps;
 }
 
 void sim_change(struct sim *sim, const struct scene_schedule *entry)
 {
+    sim->changed = true;
+    guard_outdated(sim);
     for (size_t i = 0; i < entry->change_count; i++) {
         const char *key = entry->change[i].field->key;
         if (!strcmp(key, "step"))

@@ -9,7 +9,7 @@
  *     sim_clear(&sim);
  *
  * step.c is the method, and forces.c its formulas; open.c and parts.c build the tables that they work on; integrators.c and
- * effects.c list what can be plugged in; state.c says what the future depends on; measure.c and material.c look at the result.
+ * effects.c list what can be plugged in; look.c shows moments inside a step; state.c says what the future depends on; measure.c and material.c look at the result.
  */
 #ifndef SIM_SIM_H
 #define SIM_SIM_H
@@ -24,6 +24,8 @@
 struct sim;
 struct sim_jacobian;
 struct sim_kernels;
+struct guard;
+struct guard_rows;
 struct threads;
 
 /* A piece of the state: bytes that belong to sim. */
@@ -43,6 +45,7 @@ struct sim_balloon {
     double centre[3];         /* of its points, at rest */
     double radius;            /* mean distance of its points from that centre, at rest */
     double mean_rest_length;  /* of its edges */
+    double breathing_rate;    /* 1/s, for errors of speeds (weights.h) */
     struct sim_settings *now; /* one of sim->settings */
 };
 
@@ -95,6 +98,9 @@ struct integrator {
     enum status (*advance)(struct sim *sim, double dt, struct error *err);
     /* What it remembers from step to step, as blocks; returns how many. NULL: nothing. */
     size_t (*blocks)(struct sim *sim, struct sim_block *blocks);
+    /* Sets position, velocity and scalar to what they were `back` seconds ago, 0 to sim->taken: inside the step that was
+     * taken last, by an interpolation as good as the method. NULL: states between steps cannot be had. */
+    void (*look)(struct sim *sim, double back);
     const char *source;
 };
 enum integrator_flags {
@@ -123,6 +129,10 @@ struct effect {
      * its forces depend on neither positions nor velocities. */
     void (*product)(struct sim *sim, struct sim_balloon *balloon, double a, double (*dx)[4], double b,
                     double (*dv)[4], double (*df)[4]);
+    /* EFFECT_FORCES: adds to rows (guard.h) by how much its forces on each point can change; guard_outdated() when that is no
+     * longer true. NULL: they are constant, and do no work. */
+    void (*bound)(const struct sim *sim, const struct sim_balloon *balloon, const struct guard_rows *rows);
+    bool damps; /* EFFECT_FORCES: its forces depend on velocities */
     const char *source;
 };
 extern const struct effect *const effects[]; /* NULL-terminated */
@@ -131,6 +141,15 @@ extern const struct effect *const effects[]; /* NULL-terminated */
 struct effect_hook {
     const struct effect *effect;
     struct sim_balloon *balloon;
+};
+
+/* What the last step began with, and what is put back after a look inside it; empty where nobody can look (look.c). */
+struct sim_past {
+    unsigned char *edge_active, *triangle_active; /* [edge_count], [triangle_count] */
+    double (*position)[4], (*velocity)[4];        /* [point_count] */
+    double *scalar;                               /* [scalar_count] */
+    double time;
+    bool looking;
 };
 
 /* The energy's accounts (ledger.h). */
@@ -198,14 +217,27 @@ struct sim {
         *hooks[EFFECT_PHASES]; /* [hook_count[phase]] what this scene calls for, nothing else */
     size_t hook_count[EFFECT_PHASES];
 
-    double time;          /* s: time_base + steps_since x step, so that it does not drift */
-    double step;          /* s, as the schedule has it now */
-    double time_base;     /* when the step last changed */
+    /* In fixed steps the time is time_base + steps_since x step, so that it does not drift; else the sum of the steps. */
+    double time;       /* s */
+    double whole_step; /* s, as the schedule has it now; the longest one where a method chooses for itself */
+    uint32_t substeps; /* in which the guard splits it (guard.h) */
+    double step;       /* s: whole_step / substeps, a step of the method */
+    double time_base;  /* when the step last changed */
     uint64_t steps_since; /* steps taken since then */
     uint64_t steps;       /* in all */
     size_t next_change;   /* first entry of the schedule that is still to come */
     bool edges_broke;     /* since the triangles were last asked */
     uint32_t broken;      /* edges that have let go, in all */
+    /* Since the last step an edge let go, the schedule changed something, forces jumped: methods that remember begin anew. */
+    bool changed;
+
+    /* What a method that chooses its own steps goes by and leaves. */
+    double due;           /* s: where it must stop, at a change or the end; or INFINITY */
+    double taken;         /* s: how far the last advance() moved; it comes in as the longest that it may be */
+    struct sim_past past; /* for sim_look() */
+    struct guard *guard;
+    uint64_t
+        evaluations; /* of sim_forces() since sim_open(), also of those for a look; nothing depends on it */
 
     struct sim_ledger ledger;
 
@@ -264,13 +296,16 @@ static inline void sim_break_edge(struct sim *sim, uint32_t edge)
         sim->ledger.account.fracture += sim_spring_energy(sim, edge);
     sim->broken_length[edge] = sim_edge_length(sim, edge);
     sim->edge_active[edge] = 0;
-    sim->edges_broke = true;
+    sim->edges_broke = sim->changed = true;
     sim->broken++;
 }
 
 /* Lists all that the future depends on (state.c): equal blocks, equal futures. Returns how many there are. The addresses
  * stay until sim_clear(). */
 size_t sim_blocks(struct sim *sim, struct sim_block blocks[SIM_BLOCKS_MAX]);
+
+/* How many of the scalars are the state's own: those after them only record, and are not hashed. */
+uint32_t sim_state_scalars(const struct sim *sim);
 
 /* What there is to say about a state: a row of the log. */
 struct sim_measures {
@@ -307,18 +342,29 @@ uint64_t sim_hash(struct sim *sim);
 /* Applies one entry of the schedule (schedule.c). */
 void sim_change(struct sim *sim, const struct scene_schedule *entry);
 
-/* STATUS_DIVERGED, with the first point that is nowhere and what is likely to blame (diverged.c). */
-enum status sim_diverged(const struct sim *sim, struct error *err);
+/* STATUS_DIVERGED, with the first point that is nowhere or the one that moves most, its longest edge, the time, the kinetic energy
+ * and what is likely to blame (diverged.c). */
+enum status sim_diverged(struct sim *sim, double energy, struct error *err);
 
-/* The largest step that is surely stable for a balloon's springs and dampers: mu dt (2 k_d + k dt) < 4 m, with mu, the
- * largest eigenvalue of the spring graph, bounded by twice the largest number of edges at a point. 0: there is none. */
-double sim_stable_step(const struct sim *sim, const struct sim_balloon *balloon);
+/* Whether scene.time.end has been reached: exactly where a method chooses its own steps, else to the nearest step. */
+bool sim_at_end(const struct sim *sim);
+
+/* Shows the state at `time`, later than before the last step and no later than now, to whoever draws or measures; sim_look_end()
+ * puts everything back, to the bit. Where the method cannot say what was between two steps, the state stays as it is now. Of
+ * edges and triangles those are active that were so during the step: what let go did so at its end. */
+void sim_look(struct sim *sim, double time);
+void sim_look_end(struct sim *sim);
 
 /* Orders edges and triangles by their points and shares out the points among the workers (parts.c). edge_place[i] becomes
  * where edge i of the mesh goes, from 0 on; triangle_place likewise. */
 void parts_order(const struct mesh *mesh, uint32_t *edge_place, uint32_t *triangle_place, uint32_t *count);
 enum status parts_open(struct sim *sim, struct error *err);
 void parts_close(struct sim *sim);
+
+/* Makes sim->past where the method can look into its steps (STATUS_NO_MEMORY); remembers how a step begins (look.c). */
+enum status look_open(struct sim *sim, struct error *err);
+void look_close(struct sim *sim);
+void look_remember(struct sim *sim);
 
 /* Fills sim->hooks with what the scene calls for (STATUS_NO_MEMORY); runs the hooks of one phase. */
 enum status effects_resolve(struct sim *sim, struct error *err);

@@ -1,7 +1,7 @@
 /* What the future depends on: the one list that checkpoints, rewinding, trial steps and the hash go by. */
 #include "common/hash.h"
 #include "common/vec3.h"
-#include "sim/sim.h"
+#include "sim/guard.h"
 
 double sim_edge_length(const struct sim *sim, uint32_t edge)
 {
@@ -10,8 +10,7 @@ double sim_edge_length(const struct sim *sim, uint32_t edge)
                                   : sim->broken_length[edge];
 }
 
-/* Scalars that the state consists of: the ledger's are behind them. */
-static uint32_t state_scalars(const struct sim *sim)
+uint32_t sim_state_scalars(const struct sim *sim)
 {
     return sim->ledger.on ? sim->ledger.first : sim->scalar_count;
 }
@@ -21,6 +20,8 @@ static size_t state_blocks(struct sim *sim, struct sim_block *blocks)
     const size_t points = sim->point_count, edges = sim->edge_count;
     const struct sim_block own[] = {
         {"time", &sim->time, sizeof sim->time},
+        {"whole step", &sim->whole_step, sizeof sim->whole_step},
+        {"substeps", &sim->substeps, sizeof sim->substeps},
         {"step", &sim->step, sizeof sim->step},
         {"time base", &sim->time_base, sizeof sim->time_base},
         {"steps since", &sim->steps_since, sizeof sim->steps_since},
@@ -28,18 +29,20 @@ static size_t state_blocks(struct sim *sim, struct sim_block *blocks)
         {"next change", &sim->next_change, sizeof sim->next_change},
         {"edges broke", &sim->edges_broke, sizeof sim->edges_broke},
         {"broken", &sim->broken, sizeof sim->broken},
+        {"changed", &sim->changed, sizeof sim->changed},
         {"position", sim->position, points * sizeof *sim->position},
         {"velocity", sim->velocity, points * sizeof *sim->velocity},
         {"spring constant", sim->current_spring_const, edges * sizeof *sim->current_spring_const},
         {"broken length", sim->broken_length, edges * sizeof *sim->broken_length},
         {"edge active", sim->edge_active, edges * sizeof *sim->edge_active},
         {"triangle active", sim->triangle_active, sim->triangle_count * sizeof *sim->triangle_active},
-        {"scalar", sim->scalar, state_scalars(sim) * sizeof *sim->scalar},
+        {"scalar", sim->scalar, sim_state_scalars(sim) * sizeof *sim->scalar},
         {"settings", sim->settings, sim->balloon_count * sizeof *sim->settings},
     };
     size_t count = 0;
     for (; count < sizeof own / sizeof own[0]; count++)
         blocks[count] = own[count];
+    count += guard_blocks(sim, &blocks[count]);
     if (sim->integrator->blocks)
         count += sim->integrator->blocks(sim, &blocks[count]);
     return count;
@@ -54,6 +57,9 @@ size_t sim_blocks(struct sim *sim, struct sim_block blocks[SIM_BLOCKS_MAX])
     blocks[count++] = (struct sim_block){"ledger", &sim->ledger.account, sizeof sim->ledger.account};
     blocks[count++] = (struct sim_block){"ledger's scalars", &sim->scalar[first],
                                          (sim->scalar_count - first) * sizeof *sim->scalar};
+    if (sim->integrator->vectors > 0) /* a method may remember their rates */
+        blocks[count++] = (struct sim_block){"ledger's rates", &sim->scalar_scratch[0][first],
+                                             (sim->scalar_count - first) * sizeof *sim->scalar};
     return count;
 }
 

@@ -2,8 +2,11 @@
  * One time step, as the paper's section 3.5 lists it: 1 points, 2 edges, 3 triangles, 4 pressure. The formulas are in
  * forces.c; part 5, drawing, is the renderer's.
  */
+#include "sim/guard.h"
 #include "sim/kernels.h"
 #include "sim/ledger.h"
+
+#include <math.h>
 
 /* Chunk by chunk, so that a large balloon goes through the caches once. */
 static void part_forces(struct sim *sim, const struct sim_part *part, void *context)
@@ -24,6 +27,7 @@ static void part_forces(struct sim *sim, const struct sim_part *part, void *cont
 
 void sim_forces(struct sim *sim)
 {
+    sim->evaluations++;
     sim_each_part(sim, part_forces, NULL);
     if (sim->ledger.on)
         ledger_rates(sim);           /* what pressure and dampers do to the energy, where accounts are kept */
@@ -70,30 +74,66 @@ static void change_by_schedule(struct sim *sim)
         sim_change(sim, &scene->schedule[sim->next_change++]);
 }
 
-/* The first point whose place or speed is no number any more ends the run. 0 times that is NaN, and 0 for any
- * other, so that one sum asks them all. */
-static enum status check_finite(const struct sim *sim, struct error *err)
+/* Where one of the scene's steps begins; the guard may split it in several of the method's. */
+static enum status begin_step(struct sim *sim, struct error *err)
 {
-    double sum[4] = {0};
-    for (uint32_t p = 0; p < sim->point_count; p++)
-        for (int i = 0; i < 4; i++)
-            sum[i] += 0 * sim->position[p][i] + 0 * sim->velocity[p][i];
-    return sum[0] + sum[1] + sum[2] == 0 ? STATUS_OK : sim_diverged(sim, err);
+    const bool first = sim->steps_since % sim->substeps == 0;
+    if (first)
+        change_by_schedule(sim);
+    return guard_step(sim, first, err);
+}
+
+/* When a method that chooses its own steps must stop: at the next change, or at the end. */
+static double next_due(const struct sim *sim)
+{
+    const struct scene *scene = sim->scene;
+    double due = scene->time.end > sim->time ? scene->time.end : INFINITY;
+    if (sim->next_change < scene->schedule_count)
+        due = fmin(due, scene->schedule[sim->next_change].at);
+    return due;
+}
+
+static bool is_adaptive(const struct sim *sim)
+{
+    return sim->integrator->flags & INTEGRATOR_ADAPTIVE;
+}
+
+/* Part 1: positions and velocities, by a method that asks sim_forces() as often as its order needs. */
+static enum status advance(struct sim *sim, struct error *err)
+{
+    sim->due = is_adaptive(sim) ? next_due(sim) : INFINITY;
+    const double left = sim->due - sim->time;
+    sim->taken = left <= sim->step * (1 + 1e-9) ? left : sim->step; /* no sliver of a step is left behind */
+    enum status status = sim->integrator->advance(sim, sim->taken, err);
+    if (status)
+        return status;
+    sim->changed = false;
+    sim->steps++;
+    sim->steps_since++;
+    if (!is_adaptive(sim))
+        sim->time = sim->time_base + (double)sim->steps_since / sim->substeps * sim->whole_step;
+    else
+        sim->time = sim->taken == left ? sim->due : sim->time + sim->taken;
+    return STATUS_OK;
 }
 
 enum status sim_step(struct sim *sim, struct error *err)
 {
-    change_by_schedule(sim);
-    enum status status = sim->integrator->advance(sim, sim->step,
-                                                  err); /* 1  positions, velocities; asks sim_forces()
-                                                                              as often as its order needs          */
+    enum status status = begin_step(sim, err); /* what the user or the guard changes */
+    if (status)
+        return status;
+    look_remember(sim);         /*    for pictures of a moment within the step */
+    status = advance(sim, err); /* 1  positions, velocities                    */
     if (status)
         return status;
     break_edges(sim);    /* 2  edges past the threshold let go   } once, at the end of a step, so that */
     tear_triangles(sim); /* 3  triangles that lost two edges     } no trial state breaks anything      */
-    sim->steps++;
-    sim->steps_since++;
-    sim->time = sim->time_base + (double)sim->steps_since * sim->step;
     effects_run(sim, EFFECT_AFTER_STEP);
-    return check_finite(sim, err);
+    return guard_check(sim, err);
+}
+
+bool sim_at_end(const struct sim *sim)
+{
+    const double end = sim->scene->time.end;
+    return is_adaptive(sim) ? sim->time >= end : sim->time + sim->step / 2 >= end;
 }

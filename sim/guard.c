@@ -1,0 +1,167 @@
+#include "sim/guard_bound.h"
+#include "sim/vectors.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum status guard_open(struct sim *sim, struct error *err)
+{
+    struct guard *guard = sim->guard = calloc(1, sizeof *guard);
+    if (!guard)
+        return error_no_memory(err, "the guard");
+    double **arrays[] = {
+        &guard->x,        &guard->springs, &guard->dampers, &guard->rows.stiffness, &guard->rows.damping,
+        &guard->rows.push};
+    for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
+        if (!(*arrays[i] = sim_table(sim, sim->point_count, sizeof **arrays[i])))
+            return error_no_memory(err, "the guard");
+    sim->substeps = 1;
+    sim->whole_step = sim->step;
+    return STATUS_OK;
+}
+
+void guard_close(struct sim *sim)
+{
+    struct guard *guard = sim->guard;
+    if (!guard)
+        return;
+    double *arrays[] = {
+        guard->x,        guard->springs, guard->dampers, guard->rows.stiffness, guard->rows.damping,
+        guard->rows.push};
+    for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
+        free(arrays[i]);
+    free(guard);
+    sim->guard = NULL;
+}
+
+void guard_outdated(struct sim *sim)
+{
+    sim->guard->memory.is_known = 0;
+}
+
+size_t guard_blocks(struct sim *sim, struct sim_block *blocks)
+{
+    blocks[0] = (struct sim_block){"guard", &sim->guard->memory, sizeof sim->guard->memory};
+    return 1;
+}
+
+/* The kinetic energy of a block of points, or no number when one of their places or speeds is none: 0 times that is NaN, and
+ * 0 for any other. */
+static double moving_energy(const struct sim *sim, uint32_t begin, uint32_t end, void *context)
+{
+    (void)context;
+    double energy[4] = {0};
+    for (uint32_t p = begin; p < end; p++)
+        for (int i = 0; i < 4; i++)
+            energy[i] += sim->mass[p] * sim->velocity[p][i] * sim->velocity[p][i] + 0 * sim->position[p][i];
+    return (energy[0] + energy[1] + energy[2]) / 2;
+}
+
+/* What the points can have from now on: at least what they have. `least` is 1e-12 of what it takes to stretch every edge by its
+ * own length, in energy: six digits above what rounding makes of a balloon at rest. */
+static void find_reach(struct sim *sim)
+{
+    struct guard_memory *memory = &sim->guard->memory;
+    double energy = vector_sum(sim, moving_energy, NULL), scale = 0;
+    for (uint32_t e = 0; e < sim->edge_count; e++) {
+        if (sim->edge_active[e])
+            energy += sim_spring_energy(sim, e);
+        scale += sim->current_spring_const[e] * sim->rest_length[e] * sim->rest_length[e];
+    }
+    memory->least = 1e-12 * scale;
+    memory->reach = fmax(memory->reach, sqrt(2 * energy));
+}
+
+/* Edges that let go leave the rest stabler: worth another look once an eighth of them has. */
+static bool is_worth_a_look(const struct sim *sim)
+{
+    const struct guard_memory *memory = &sim->guard->memory;
+    return sim->substeps > 1 && sim->broken - memory->broken > (sim->edge_count - memory->broken) / 8;
+}
+
+static void look(struct sim *sim)
+{
+    if (!sim->guard->memory.is_known)
+        find_reach(sim);
+    if (!sim->guard->memory.is_known || is_worth_a_look(sim))
+        guard_find_bound(sim);
+}
+
+double guard_stable_step(struct sim *sim)
+{
+    look(sim);
+    return sim->guard->memory.stable;
+}
+
+static void set_parts(struct sim *sim, uint32_t parts)
+{
+    if (parts == sim->substeps)
+        return;
+    sim->substeps = parts;
+    sim->step = sim->whole_step / parts;
+    sim->time_base = sim->time;
+    sim->steps_since = 0;
+    sim->changed = true;
+}
+
+static enum status refuse(struct sim *sim, struct error *err)
+{
+    char text[256];
+    guard_describe(sim, text, sizeof text);
+    return error_set(err, STATUS_DIVERGED, "%s: refused at time %g: %s", sim->scene->path, sim->time, text);
+}
+
+/* The fewest equal parts that are stable, beyond rounding. */
+static double parts_needed(const struct sim *sim)
+{
+    if (sim->integrator->flags & INTEGRATOR_ADAPTIVE)
+        return 1;
+    return fmax(ceil(sim->whole_step / sim->guard->memory.stable * (1 - 1e-12)), 1);
+}
+
+enum status guard_step(struct sim *sim, bool first, struct error *err)
+{
+    const int guard = sim->scene->time.guard;
+    look(sim);
+    if (!first)
+        return STATUS_OK;
+    const double parts = guard == SCENE_GUARD_OFF ? 1 : parts_needed(sim);
+    if (parts > 1 && (guard == SCENE_GUARD_REFUSE || !(parts <= GUARD_PARTS_MAX)))
+        return refuse(sim, err);
+    set_parts(sim, (uint32_t)parts);
+    return STATUS_OK;
+}
+
+enum status guard_check(struct sim *sim, struct error *err)
+{
+    struct guard_memory *memory = &sim->guard->memory;
+    const double energy = vector_sum(sim, moving_energy, NULL);
+    memory->reach += memory->push * sim->taken;
+    if (energy <= 1e6 * fmax(memory->reach * memory->reach / 2, memory->least))
+        return STATUS_OK;
+    return sim_diverged(sim, energy, err);
+}
+
+void guard_describe(struct sim *sim, char *text, size_t size)
+{
+    static const char *const causes[] = {"springs", "dampers", "pressure"};
+    const struct guard_memory *memory = &sim->guard->memory;
+    const double step = sim->whole_step, stable = guard_stable_step(sim), parts = parts_needed(sim);
+    const char *method = sim->integrator->name;
+    if (!(stable < INFINITY)) {
+        snprintf(text, size, "every step is stable for %s", method);
+        return;
+    }
+    size_t b = 0;
+    while (b + 1 < sim->balloon_count && memory->point >= sim->balloons[b].point_end)
+        b++;
+    int used = 0;
+    if (parts > 1 && parts <= GUARD_PARTS_MAX && sim->scene->time.guard == SCENE_GUARD_SUBSTEP)
+        used = snprintf(text, size, "time.step %g is split in %.0f: ", step, parts);
+    else if (parts > 1)
+        used = snprintf(text, size, "time.step %g is too large: ", step);
+    snprintf(
+        text + used, size - (size_t)used,
+        "steps up to %.3g are surely stable for %s; most of that is for the %s at point %u of balloons[%zu]",
+        stable, method, causes[memory->cause], memory->point - sim->balloons[b].point_begin, b);
+}

@@ -1,0 +1,143 @@
+#include "sim/guard_bound.h"
+
+#include <math.h>
+#include <string.h>
+
+/* What a point's sums count for: damping h + growth h + stiffness h^2 must not pass 1. */
+struct limits {
+    double damping;   /* 1/d */
+    double stiffness; /* 1/w^2 */
+    double growth;    /* end/2 in its place, where no step is stable */
+};
+
+static struct limits limits_of(const struct sim *sim)
+{
+    const double w = sim->integrator->oscillation_limit;
+    struct limits l = {.damping = 1 / sim->integrator->decay_limit};
+    if (w > 0)
+        l.stiffness = 1 / (w * w);
+    else
+        l.growth = sim->scene->time.end / 2;
+    return l;
+}
+
+static double largest_step(const struct limits *l, double stiffness, double damping)
+{
+    const double a = l->stiffness * stiffness, b = l->damping * damping + l->growth * stiffness;
+    return 2 / (b + sqrt(b * b + 4 * a)); /* the positive root, in the form that does not cancel */
+}
+
+/* What acts on single points: pressure and effects. */
+static void find_rows(struct sim *sim)
+{
+    const struct guard_rows rows = sim->guard->rows;
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++) {
+        const double pressure = fabs(b->now->pressure), trembling = b->mean_rest_length / 10;
+        for (uint32_t p = b->point_begin; p < b->point_end; p++) {
+            rows.stiffness[p] = trembling > 0 ? 2 * pressure / trembling : 0;
+            rows.damping[p] = 0;
+            rows.push[p] = pressure;
+        }
+    }
+    for (size_t i = 0; i < sim->hook_count[EFFECT_FORCES]; i++) {
+        const struct effect_hook *hook = &sim->hooks[EFFECT_FORCES][i];
+        if (hook->effect->bound)
+            hook->effect->bound(sim, hook->balloon, &rows);
+    }
+    double push = 0;
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        push += rows.push[p] * rows.push[p] / sim->mass[p];
+    sim->guard->memory.push = sqrt(push);
+}
+
+/* The unsigned Laplacians of springs and of dampers, times x. */
+static void find_edges(const struct sim *sim)
+{
+    struct guard *guard = sim->guard;
+    memset(guard->springs, 0, sim->point_count * sizeof *guard->springs);
+    memset(guard->dampers, 0, sim->point_count * sizeof *guard->dampers);
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
+        for (uint32_t e = b->edge_begin; e < b->edge_end; e++) {
+            if (!sim->edge_active[e])
+                continue;
+            const uint32_t *p = sim->edge_point[e];
+            const double x = guard->x[p[0]] + guard->x[p[1]];
+            const double spring = sim->current_spring_const[e] * x, damper = b->now->damping * x;
+            for (int k = 0; k < 2; k++) {
+                guard->springs[p[k]] += spring;
+                guard->dampers[p[k]] += damper;
+            }
+        }
+}
+
+/* The bound that x gives; *tightest becomes the point that it comes from. */
+static double bound_of(const struct sim *sim, const struct limits *l, uint32_t *tightest)
+{
+    const struct guard *guard = sim->guard;
+    double best = INFINITY;
+    find_edges(sim);
+    for (uint32_t p = 0; p < sim->point_count; p++) {
+        const double stiffness = guard->springs[p] / guard->x[p] + guard->rows.stiffness[p],
+                     damping = guard->dampers[p] / guard->x[p] + guard->rows.damping[p];
+        const double h = largest_step(l, stiffness / sim->mass[p], damping / sim->mass[p]);
+        if (h < best) {
+            best = h;
+            *tightest = p;
+        }
+    }
+    return best;
+}
+
+/* A power iteration at the step h: x becomes the matrix times x, its largest number 1. None may become 0: where little happens,
+ * far from the tightest point, numbers shrink as long as one iterates. */
+static void sharpen(const struct sim *sim, const struct limits *l, double h)
+{
+    struct guard *guard = sim->guard;
+    const double stiffness = h * h * l->stiffness + h * l->growth, damping = h * l->damping;
+    double largest = 0;
+    for (uint32_t p = 0; p < sim->point_count; p++) {
+        const double springs = guard->springs[p] + guard->rows.stiffness[p] * guard->x[p],
+                     dampers = guard->dampers[p] + guard->rows.damping[p] * guard->x[p];
+        guard->x[p] = (stiffness * springs + damping * dampers) / sim->mass[p];
+        largest = fmax(largest, guard->x[p]);
+    }
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        guard->x[p] = fmax(guard->x[p] / largest, 1e-100);
+}
+
+static enum guard_cause cause_at(const struct sim *sim, const struct limits *l, double h, uint32_t p)
+{
+    const struct guard *guard = sim->guard;
+    const double stiffness = h * l->stiffness + l->growth;
+    const double springs = stiffness * guard->springs[p] / guard->x[p],
+                 dampers = l->damping * guard->dampers[p] / guard->x[p],
+                 points = stiffness * guard->rows.stiffness[p] + l->damping * guard->rows.damping[p];
+    if (points > springs && points > dampers)
+        return GUARD_POINTS;
+    return dampers > springs ? GUARD_DAMPERS : GUARD_SPRINGS;
+}
+
+void guard_find_bound(struct sim *sim)
+{
+    enum { ITERATIONS_MAX = 40 };
+    struct guard_memory *memory = &sim->guard->memory;
+    const struct limits l = limits_of(sim);
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        sim->guard->x[p] = 1;
+    find_rows(sim);
+    memory->stable = 0;
+    for (int i = 0; i < ITERATIONS_MAX; i++) {
+        uint32_t point = 0;
+        const double before = memory->stable, h = bound_of(sim, &l, &point);
+        if (h > before) {
+            memory->stable = h;
+            memory->point = point;
+            memory->cause = cause_at(sim, &l, h, point);
+        }
+        if (isinf(h) || h == 0 || (i % 8 == 7 && memory->stable < 1.002 * before))
+            break;
+        sharpen(sim, &l, h);
+    }
+    memory->broken = sim->broken;
+    memory->is_known = 1;
+}
