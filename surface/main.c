@@ -2,6 +2,7 @@
 #include "common/command.h"
 #include "common/file.h"
 #include "common/octree.h"
+#include "common/threads.h"
 #include "render/render.h"
 #include "surface/surface.h"
 
@@ -21,6 +22,7 @@ enum option_key {
     KEY_RELAX,
     KEY_SEEDS,
     KEY_SEED,
+    KEY_THREADS,
     KEY_INFO,
     KEY_RENDER,
 };
@@ -43,6 +45,7 @@ static const struct argp_option option_list[] = {
      0},
     {"seeds", KEY_SEEDS, "HOW", 0, "Where following begins: descent (default) or random", 0},
     {"seed", KEY_SEED, "N", 0, "Of the random points (default 1)", 0},
+    {"threads", KEY_THREADS, "N", 0, "Threads to work with (default: as many as there are processors)", 0},
     {"info", KEY_INFO, NULL, 0, "Print figures about the mesh", 0},
     {"render", KEY_RENDER, "FILE.png", 0, "Draw the mesh", 0},
     {"quiet", 'q', NULL, 0, "No notes, no progress", 0},
@@ -157,6 +160,9 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         break;
     case KEY_SEED:
         options->seed = (uint64_t)command_whole(state, "--seed", argument, 0, INT64_MAX);
+        break;
+    case KEY_THREADS:
+        options->threads = (unsigned)command_whole(state, "--threads", argument, 1, THREADS_MAX);
         break;
     case KEY_INFO:
         arguments->info = true;

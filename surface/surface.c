@@ -42,7 +42,9 @@ static double usable_memory(void)
 static enum status check_memory(const struct making *making, double cube, struct error *err)
 {
     double points = expected_points(making, cube), bytes = points * POINT_BYTES;
-    double most = fmin(usable_memory() / POINT_BYTES, 0.4 * MESH_NONE);
+    /* Two triangles a point, whose numbers are of 32 bits, and some more after relaxation. */
+    double numbers = 0.4 * MESH_NONE, memory = usable_memory() / POINT_BYTES;
+    double most = making->options->force ? numbers : fmin(numbers, memory);
     if (points <= most)
         return STATUS_OK;
     return error_set(err, STATUS_RANGE,

@@ -44,6 +44,7 @@ struct surface_options {
                                     1/24 of the sculpture's longest extent where that is less */
     uint32_t triangles;          /* 0, or the number of triangles to choose the cube size for */
     unsigned relax;              /* rounds of relaxation, 0 .. 1000; 10; 0: plain marching cubes */
+    bool force;                  /* go on where memory is estimated not to hold the mesh */
     enum surface_seeds seeds;
     uint64_t seed;                                /* of the random points */
     unsigned threads;                             /* 0, the default: as many as the machine has */
@@ -64,7 +65,8 @@ struct surface_stats {
 
 /* Errors: STATUS_INPUT for an empty sculpture and a threshold that the field does not reach (naming the
  * largest value found); STATUS_RANGE for options out of range, a cube size larger than the object (naming
- * one that works) or so small that memory would not hold the mesh (naming the estimate); STATUS_NO_MEMORY.
+ * one that works) or so small that memory would not hold the mesh (naming the estimate; see force);
+ * STATUS_NO_MEMORY.
  * *mesh, which must be empty, stays so on failure. */
 enum status surface_make(const struct octree *tree, const struct surface_options *options, struct mesh *mesh,
                          struct surface_stats *stats, struct error *err);
