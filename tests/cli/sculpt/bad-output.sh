@@ -14,3 +14,13 @@ refused 1 'a\.ply: the sculpture is empty' balloon-sculpt --script empty.chips -
 only_files folder.oct empty.chips
 expect 1 sh -c 'balloon-sculpt --info >/dev/full'
 stderr_has 'cannot write the results'
+
+# A file that may not grow is like a full disk: no more than 1024 bytes here.
+expect 0 balloon-sculpt --depth 3 -o kept.oct
+cp kept.oct before.oct
+echo 'chip sphere 0.5 0.5 1 0.4' >carve.chips
+expect 1 sh -c 'ulimit -f 2; balloon-sculpt kept.oct --script carve.chips -o kept.oct'
+stderr_has 'kept\.oct: cannot write: File too large'
+one_message
+same_file kept.oct before.oct
+only_files folder.oct empty.chips kept.oct before.oct carve.chips

@@ -26,3 +26,8 @@ cat snowman.chips half.chips >both.chips
 expect 0 balloon-sculpt --script both.chips -o b.oct
 same_file a.oct b.oct
 only_files snowman.chips half.chips both.chips back.chips a.oct b.oct faces.ply
+
+# What lies outside of the cube is allowed, and does nothing there.
+printf 'depth 4\nchip sphere 2 2 2 0.5\nfill box -9 -9 -9 -1 -1 -1\nchip half-space 0 -5 0 0 -1 0\n' >outside.chips
+expect 0 balloon-sculpt --script outside.chips --info
+stdout_has '^cells +4096$'

@@ -35,6 +35,14 @@ ply wild.ply '0 0 0
 nan 1 1
 2 2 0' '0 1 2'
 refused 1 'wild\.ply' balloon-sculpt --import wild.ply -o out.oct
+printf 'ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\n' >huge.ply
+printf 'element face 4000000000\nproperty list uchar int vertex_indices\nend_header\n' >>huge.ply
+refused 1 'huge\.ply' balloon-sculpt --import huge.ply -o out.oct
+{
+    head -c 80 /dev/zero
+    printf '\377\377\377\377'
+} >huge.stl
+refused 1 'huge\.stl' balloon-sculpt --import huge.stl -o out.oct
 : >empty.stl
 refused 1 'empty\.stl' balloon-sculpt --import empty.stl -o out.oct
 refused 1 'missing\.obj: cannot open' balloon-sculpt --import missing.obj -o out.oct
