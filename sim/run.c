@@ -16,13 +16,26 @@ struct outputs {
 
 static enum status show_state(struct outputs *outputs, struct sim *sim, struct error *err)
 {
-    const double number = sim->time * sim->scene->view.rate + 1e-6; /* rounding must not put a frame off */
-    if (number < outputs->next)
-        return STATUS_OK;
-    outputs->next = floor(number) + 1;
     if (outputs->log)
         sim_log_row(outputs->log, sim);
     return outputs->film ? film_frame(outputs->film, err) : STATUS_OK;
+}
+
+/* All frames that are due: at their own times where the method can tell what was inside a step, else one of the state as it is
+ * now. */
+static enum status show_frames(struct outputs *outputs, struct sim *sim, struct error *err)
+{
+    const double rate = sim->scene->view.rate,
+                 number = sim->time * rate + 1e-6; /* rounding must not put a frame off */
+    enum status status = STATUS_OK;
+    if (!sim->integrator->look && number >= outputs->next)
+        outputs->next = floor(number);
+    for (; !status && number >= outputs->next; outputs->next++) {
+        sim_look(sim, outputs->next / rate);
+        status = show_state(outputs, sim, err);
+        sim_look_end(sim);
+    }
+    return status;
 }
 
 /* Says once that steps are split, and why. */
@@ -41,15 +54,15 @@ static enum status step_to_end(struct sim *sim, struct outputs *outputs, double 
                                struct error *err)
 {
     const double end = sim->scene->time.end;
-    enum status status = show_state(outputs, sim, err);
+    enum status status = show_frames(outputs, sim, err);
     const double steps = end / sim->step;
     bool said = false;
     progress_begin("inflating", "steps", steps);
-    while (!status && sim->time + sim->step / 2 < end) {
+    while (!status && !sim_at_end(sim)) {
         status = sim_step(sim, err);
         note_guard(sim, &said);
         if (!status)
-            status = show_state(outputs, sim, err);
+            status = show_frames(outputs, sim, err);
         if (sim->broken && *first_break < 0)
             *first_break = sim->time;
         progress_update(sim->time / end * steps);
