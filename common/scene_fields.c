@@ -5,7 +5,8 @@
 #include <string.h>
 
 const char *const scene_integrator_names[] = {
-    "symplectic-euler", "explicit-euler", "verlet", "rk4", "rkn4", "rk-adaptive", NULL};
+    "symplectic-euler", "explicit-euler",    "verlet", "rk4",  "rkn4", "rk-adaptive",
+    "backward-euler",   "implicit-midpoint", "bdf2",   "xpbd", NULL};
 const char *const scene_guard_names[] = {"substep", "refuse", "off", NULL};
 const char *const scene_stereo_names[] = {"mono", "parallel", "crossed", NULL};
 

@@ -10,6 +10,10 @@ const struct integrator *const integrators[] = {
     &integrator_rk4,
     &integrator_rkn4,
     &integrator_rk_adaptive,
+    &integrator_backward_euler,
+    &integrator_implicit_midpoint,
+    &integrator_bdf2,
+    &integrator_xpbd,
     NULL,
 };
 

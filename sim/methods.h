@@ -12,5 +12,9 @@ extern const struct integrator integrator_rk_adaptive; /* rk_adaptive.c */
 extern const struct integrator integrator_rkn4;        /* rkn4.c */
 extern const struct integrator integrator_cvode_adams; /* cvode.c, or no_cvode.c without the library */
 extern const struct integrator integrator_cvode_bdf;
+extern const struct integrator integrator_backward_euler; /* implicit_methods.c */
+extern const struct integrator integrator_implicit_midpoint;
+extern const struct integrator integrator_bdf2;
+extern const struct integrator integrator_xpbd; /* xpbd.c */
 
 #endif

@@ -1,0 +1,218 @@
+#include "sim/implicit.h"
+#include "sim/jacobian.h"
+#include "sim/vectors.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NEWTON_ITERATIONS_MAX = 12, HALVINGS_MAX = 10 };
+
+/* The residual that a linear solve leaves, and what of the first correction may be left when Newton's method stops. Looser
+ * linear solves need more of Newton's steps, each with its forces and derivatives; measured by bench_implicit, 1e-3 to 1e-5
+ * cost the same. */
+static const double linear_tolerance = 1e-4, newton_tolerance = 1e-6;
+
+enum status implicit_open(struct sim *sim, struct error *err)
+{
+    struct implicit *m = calloc(1, sizeof *m);
+    sim->method = m;
+    if (!m)
+        return error_no_memory(err, "the integrator");
+    enum status status = sim_jacobian_open(sim, err);
+    return status ? status : solver_open(sim, &m->solver, err);
+}
+
+void implicit_close(struct sim *sim)
+{
+    struct implicit *m = sim->method;
+    if (m)
+        solver_close(&m->solver);
+    sim_jacobian_close(sim);
+    free(m);
+    sim->method = NULL;
+}
+
+void implicit_base(struct sim *sim, double ahead)
+{
+    double(**row)[4] = sim->scratch;
+    double(*acceleration)[4] = row[IMPLICIT_BASE_VELOCITY],
+    *scalar = sim->scalar_scratch[IMPLICIT_BASE_VELOCITY];
+    vector_combine(sim, row[IMPLICIT_BASE_POSITION], sim->position,
+                   (struct vector_term[]){{ahead, sim->velocity}}, 1);
+    if (ahead != 0)
+        vector_over_mass(sim, acceleration, sim->force);
+    vector_combine(sim, acceleration, sim->velocity, (struct vector_term[]){{ahead, acceleration}}, 1);
+    for (uint32_t i = 0; i < sim->scalar_count; i++)
+        scalar[i] = sim->scalar[i] + ahead * sim->scalar_rate[i];
+}
+
+/* As y + w (y - start), so that what has not moved does not move. */
+static void extrapolate_part(struct sim *sim, const struct sim_part *part, void *context)
+{
+    const double w = *(double *)context;
+    double(*x)[4] = sim->scratch[IMPLICIT_START_POSITION], (*v)[4] = sim->scratch[IMPLICIT_START_VELOCITY];
+    for (uint32_t p = part->point_begin; p < part->point_end; p++)
+        for (int i = 0; i < 4; i++) {
+            sim->position[p][i] += w * (sim->position[p][i] - x[p][i]);
+            sim->velocity[p][i] += w * (sim->velocity[p][i] - v[p][i]);
+        }
+}
+
+void implicit_extrapolate(struct sim *sim, double w)
+{
+    const double *start = sim->scalar_scratch[IMPLICIT_START_VELOCITY];
+    sim_each_part(sim, extrapolate_part, &w);
+    for (uint32_t i = 0; i < sim->scalar_count; i++)
+        sim->scalar[i] += w * (sim->scalar[i] - start[i]);
+}
+
+static void place_points(struct sim *sim, double c)
+{
+    vector_combine(sim, sim->position, sim->scratch[IMPLICIT_BASE_POSITION],
+                   (struct vector_term[]){{c, sim->velocity}}, 1);
+}
+
+/* Forces at the present guess, and scalars by their rates there; returns the largest change of one against its size. */
+static double evaluate(struct sim *sim, double c)
+{
+    const double *base = sim->scalar_scratch[IMPLICIT_BASE_VELOCITY];
+    double change = 0;
+    sim_forces(sim);
+    for (uint32_t i = 0; i < sim->scalar_count; i++) {
+        const double scalar = base[i] + c * sim->scalar_rate[i];
+        change = fmax(change, fabs(scalar - sim->scalar[i]) / fmax(fabs(scalar), fabs(base[i])));
+        sim->scalar[i] = scalar;
+    }
+    return change;
+}
+
+/* rhs = M (V - v) + c f. */
+static void residual_part(struct sim *sim, const struct sim_part *part, void *context)
+{
+    const double c = *(double *)context;
+    double(*rhs)[4] = sim->scratch[IMPLICIT_RHS], (*base)[4] = sim->scratch[IMPLICIT_BASE_VELOCITY];
+    for (uint32_t p = part->point_begin; p < part->point_end; p++)
+        for (int i = 0; i < 4; i++)
+            rhs[p][i] = sim->mass[p] * (base[p][i] - sim->velocity[p][i]) + c * sim->force[p][i];
+}
+
+static double rms(struct sim *sim, double (*x)[4])
+{
+    return sqrt(vector_dot(sim, x, x) / sim->point_count);
+}
+
+/* The change of places that rounding alone makes: a few units in the last place of the RMS position. */
+static double rounding(struct sim *sim, double c)
+{
+    return 4 * 0x1p-52 * (rms(sim, sim->position) + c * rms(sim, sim->velocity));
+}
+
+/* Remembers which point is furthest from a solution, for the message. */
+static void note_worst(struct sim *sim)
+{
+    struct implicit *m = sim->method;
+    double(*rhs)[4] = sim->scratch[IMPLICIT_RHS];
+    m->worst = -1;
+    for (uint32_t p = 0; p < sim->point_count; p++) {
+        const double size = sqrt(rhs[p][0] * rhs[p][0] + rhs[p][1] * rhs[p][1] + rhs[p][2] * rhs[p][2]);
+        if (!(size / sim->mass[p] <= m->worst)) {
+            m->worst = size / sim->mass[p];
+            m->worst_point = p;
+        }
+        if (!isfinite(m->worst))
+            return;
+    }
+}
+
+/* One of Newton's steps; *size becomes the RMS change of place. */
+static bool newton(struct sim *sim, double c, double *size)
+{
+    struct implicit *m = sim->method;
+    double(*change)[4] = sim->scratch[IMPLICIT_CHANGE];
+    sim_each_part(sim, residual_part, &c);
+    sim_linearise(sim);
+    solver_prepare(sim, &m->solver, c * c, c);
+    if (!solver_solve(sim, &m->solver, sim->scratch[IMPLICIT_RHS], change, linear_tolerance))
+        return false;
+    vector_add(sim, sim->velocity, 1, change);
+    place_points(sim, c);
+    *size = c * rms(sim, change);
+    return isfinite(*size);
+}
+
+bool implicit_solve(struct sim *sim, double c)
+{
+    double first = 0, before = INFINITY, size;
+    place_points(sim, c);
+    for (int i = 0; i < NEWTON_ITERATIONS_MAX; i++, before = size) {
+        const double scalar_change = evaluate(sim, c);
+        if (!newton(sim, c, &size) || (i > 1 && size > before))
+            break;
+        first = fmax(first, size);
+        const double left = i == 0 ? linear_tolerance * size : size * (size / before);
+        if ((i > 0 && left <= newton_tolerance * first && scalar_change <= newton_tolerance) ||
+            size <= rounding(sim, c)) {
+            if (sim->scalar_count > 0)
+                evaluate(sim, c);
+            return true;
+        }
+    }
+    note_worst(sim);
+    return false;
+}
+
+static void remember_start(struct sim *sim)
+{
+    vector_copy(sim, sim->scratch[IMPLICIT_START_POSITION], sim->position);
+    vector_copy(sim, sim->scratch[IMPLICIT_START_VELOCITY], sim->velocity);
+    for (uint32_t i = 0; i < sim->scalar_count; i++)
+        sim->scalar_scratch[IMPLICIT_START_VELOCITY][i] = sim->scalar[i];
+}
+
+static void return_to_start(struct sim *sim)
+{
+    vector_copy(sim, sim->position, sim->scratch[IMPLICIT_START_POSITION]);
+    vector_copy(sim, sim->velocity, sim->scratch[IMPLICIT_START_VELOCITY]);
+    for (uint32_t i = 0; i < sim->scalar_count; i++)
+        sim->scalar[i] = sim->scalar_scratch[IMPLICIT_START_VELOCITY][i];
+}
+
+static enum status give_up(struct sim *sim, double dt, struct error *err)
+{
+    const struct implicit *m = sim->method;
+    size_t b = 0;
+    while (b + 1 < sim->balloon_count && m->worst_point >= sim->balloons[b].point_end)
+        b++;
+    const double *x = sim->position[m->worst_point];
+    return error_set(
+        err, STATUS_DIVERGED,
+        "%s: diverged at time %g (step %llu): %s finds no solution even over %.3g s, a 1024th of "
+        "the step of %g; furthest from one is point %u of balloons[%zu] at (%g, %g, %g), by an "
+        "acceleration of %.3g; forces that change this fast want another integrator, or other "
+        "springs, masses or pressure",
+        sim->scene->path, sim->time, (unsigned long long)sim->steps, sim->integrator->name,
+        dt / (1 << HALVINGS_MAX), dt, m->worst_point - sim->balloons[b].point_begin, b, x[0], x[1], x[2],
+        m->worst * (1 << HALVINGS_MAX) / dt);
+}
+
+enum status implicit_step(struct sim *sim, double dt, bool (*take)(struct sim *sim, double h),
+                          struct error *err)
+{
+    const unsigned whole = 1u << HALVINGS_MAX; /* in parts of dt that are not halved any more */
+    unsigned place = 0, size = whole;
+    while (place < whole) {
+        remember_start(sim);
+        if (take(sim, dt * size / whole)) {
+            place += size;
+            while (place % (2 * size) == 0 && place < whole)
+                size *= 2; /* what was difficult is over */
+            continue;
+        }
+        return_to_start(sim);
+        if (size == 1)
+            return give_up(sim, dt, err);
+        size /= 2;
+    }
+    return STATUS_OK;
+}

@@ -1,0 +1,42 @@
+/*
+ * Solves (M - a K - b D) x = rhs, M the masses, K and D the derivatives of the forces (jacobian.h): the linear system of
+ * every implicit method. K is not symmetric where there is pressure, nor where dampers turn: so BiCGSTAB (van der Vorst,
+ * SIAM J. Sci. Stat. Comput. 13 (1992) 631), which keeps six vectors whatever it takes, preconditioned by the inverses of the
+ * 3x3 blocks on the diagonal. Equal to the bit for any number of threads.
+ *
+ *     struct solver solver = {0};
+ *     if (solver_open(sim, &solver, err)) ...              with sim_jacobian_open()
+ *     sim_linearise(sim);
+ *     solver_prepare(sim, &solver, a, b);                  whenever it was linearised, or a or b change
+ *     if (!solver_solve(sim, &solver, rhs, x, 1e-4)) ...   it has not converged
+ *     solver_close(&solver);
+ */
+#ifndef SIM_SOLVER_H
+#define SIM_SOLVER_H
+
+#include "sim/sim.h"
+
+enum { SOLVER_ROWS = 6, SOLVER_ITERATIONS_MAX = 400 };
+
+struct solver {
+    double (*inverse)[3][4];        /* [point_count] of the diagonal blocks */
+    double (*rows[SOLVER_ROWS])[4]; /* [point_count] */
+    double a, b;
+    uint64_t iterations; /* since it was opened, each two products */
+};
+
+/* Errors: STATUS_NO_MEMORY; close it all the same. */
+enum status solver_open(struct sim *sim, struct solver *solver, struct error *err);
+void solver_close(struct solver *solver);
+
+void solver_prepare(struct sim *sim, struct solver *solver, double a, double b);
+
+/* Sets x to a solution, starting from 0; rhs is kept, and neither is the other. It is one when the residual, after the
+ * preconditioner (so that it is in the units of x, and a heavy point counts like a light one), is at most tolerance times
+ * that of x = 0. False: it is not, after SOLVER_ITERATIONS_MAX iterations or a breakdown, and x is no use. */
+bool solver_solve(struct sim *sim, struct solver *solver, double (*rhs)[4], double (*x)[4], double tolerance);
+
+/* RMS over all points of what the preconditioner makes of x: about the solution's size for the right-hand side x. */
+double solver_size(struct sim *sim, struct solver *solver, double (*x)[4]);
+
+#endif

@@ -1,0 +1,219 @@
+/*
+ * Position-based dynamics with compliant constraints: each spring with its damper is a constraint, solved by itself, implicitly,
+ * one after the other, once in each of a few substeps. Never unstable with springs and dampers however stiff, at the cost of
+ * an explicit method, and of first order. Its error: one pass does not solve all constraints together, so springs much stiffer
+ * than m / h^2, h being a substep, act softer than they are, and lose energy; refine the step until it shows no more. Pressure
+ * and what effects add are forces from outside, as they are where a substep begins.
+ *
+ * Edges that meet cannot be solved at the same time. They are coloured so that no two of a colour meet: those of a colour can
+ * be solved in any order, by any number of threads, to the same bits; the colours follow each other.
+ */
+#include "common/array.h"
+#include "common/threads.h"
+#include "sim/kernels.h"
+#include "sim/methods.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { SUBSTEPS = 8, COLOURS = 64, BEFORE = 0 /* the scratch with the positions where a substep begins */ };
+
+struct xpbd {
+    uint32_t *edge;              /* [edge_count] by colour, in each in the tables' order */
+    uint32_t begin[COLOURS + 1]; /* first of each colour in edge; those of the last may meet */
+};
+
+static uint32_t lowest_free(uint64_t used)
+{
+    uint32_t colour = 0;
+    while (colour < COLOURS - 1 && used >> colour & 1)
+        colour++;
+    return colour;
+}
+
+/* Each edge in turn takes the first colour that none of those it meets has; with more than COLOURS - 1, the last. */
+static void colour_edges(const struct sim *sim, unsigned char *colour, uint64_t *used)
+{
+    for (uint32_t e = 0; e < sim->edge_count; e++) {
+        uint64_t *a = &used[sim->edge_point[e][0]], *b = &used[sim->edge_point[e][1]];
+        colour[e] = (unsigned char)lowest_free(*a | *b);
+        *a |= UINT64_C(1) << colour[e];
+        *b |= UINT64_C(1) << colour[e];
+    }
+}
+
+static void sort_edges(const struct sim *sim, struct xpbd *m, const unsigned char *colour)
+{
+    uint32_t place[COLOURS] = {0};
+    for (uint32_t e = 0; e < sim->edge_count; e++)
+        m->begin[colour[e] + 1]++;
+    for (int c = 0; c < COLOURS; c++) {
+        m->begin[c + 1] += m->begin[c];
+        place[c] = m->begin[c];
+    }
+    for (uint32_t e = 0; e < sim->edge_count; e++)
+        m->edge[place[colour[e]]++] = e;
+}
+
+static enum status open_xpbd(struct sim *sim, struct error *err)
+{
+    struct xpbd *m = calloc(1, sizeof *m);
+    sim->method = m;
+    unsigned char *colour = array_new(sim->edge_count, 1);
+    uint64_t *used = calloc(sim->point_count, sizeof *used);
+    if (m)
+        m->edge = sim_table(sim, sim->edge_count, sizeof *m->edge);
+    const bool room = m && m->edge && colour && used;
+    if (room) {
+        colour_edges(sim, colour, used);
+        sort_edges(sim, m, colour);
+    }
+    free(colour);
+    free(used);
+    return room ? STATUS_OK : error_no_memory(err, "the integrator");
+}
+
+static void close_xpbd(struct sim *sim)
+{
+    struct xpbd *m = sim->method;
+    if (m)
+        free(m->edge);
+    free(m);
+    sim->method = NULL;
+}
+
+/* What acts on the points beside springs and dampers. */
+static void outer_part(struct sim *sim, const struct sim_part *part, void *context)
+{
+    (void)context;
+    const struct sim_kernels *k = sim->kernels;
+    for (const struct sim_chunk *c = part->chunks; c < part->chunks + part->chunk_count; c++) {
+        k->clear_points(sim, c);
+        if (c == part->chunks)
+            k->coming_normals(sim, part);
+        k->triangle_normals(sim, part, c);
+        k->pressure_forces(sim, part, c);
+    }
+}
+
+static void predict_part(struct sim *sim, const struct sim_part *part, void *context)
+{
+    const double h = *(double *)context;
+    double(*before)[4] = sim->scratch[BEFORE];
+    for (uint32_t p = part->point_begin; p < part->point_end; p++)
+        for (int i = 0; i < 4; i++) {
+            before[p][i] = sim->position[p][i];
+            sim->velocity[p][i] += h / sim->mass[p] * sim->force[p][i];
+            sim->position[p][i] += h * sim->velocity[p][i];
+        }
+}
+
+/*
+ * With C = |l| - r, its gradient u at a and -u at b, the stiffness k and the damping d,
+ *     -s = (k h^2 C + d h u . (dx_a - dx_b)) / (1 + (k h^2 + d h) (1/m_a + 1/m_b)),    x_a += s u / m_a,   x_b -= s u / m_b
+ * dx being the way since the substep began: equation 26 there, multiplied by the stiffness so that it may be 0.
+ */
+static void solve_edge(struct sim *sim, uint32_t e, double damping, double h)
+{
+    double *a = sim->position[sim->edge_point[e][0]], *b = sim->position[sim->edge_point[e][1]];
+    const double *a0 = sim->scratch[BEFORE][sim->edge_point[e][0]],
+                 *b0 = sim->scratch[BEFORE][sim->edge_point[e][1]];
+    const double wa = 1 / sim->mass[sim->edge_point[e][0]], wb = 1 / sim->mass[sim->edge_point[e][1]];
+    const double l[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    const double length = sqrt(l[0] * l[0] + l[1] * l[1] + l[2] * l[2]);
+    if (!(length > 0))
+        return;
+    double way = 0; /* along l */
+    for (int i = 0; i < 3; i++)
+        way += l[i] * (l[i] - (a0[i] - b0[i]));
+    const double kh2 = sim->current_spring_const[e] * h * h, dh = damping * h;
+    const double s = (kh2 * (length - sim->rest_length[e]) + dh * way / length) /
+                     (1 + (kh2 + dh) * (wa + wb)) / length;
+    for (int i = 0; i < 3; i++) {
+        a[i] -= s * wa * l[i];
+        b[i] += s * wb * l[i];
+    }
+}
+
+struct colour_job {
+    struct sim *sim;
+    double h;
+    uint32_t begin, end;
+};
+
+static void solve_colour(void *context, unsigned worker, unsigned workers)
+{
+    const struct colour_job *job = context;
+    const struct xpbd *m = job->sim->method;
+    const struct sim_balloon *balloon = job->sim->balloons;
+    const uint64_t count = job->end - job->begin;
+    const uint32_t end = job->begin + (uint32_t)(count * (worker + 1) / workers);
+    for (uint32_t i = job->begin + (uint32_t)(count * worker / workers); i < end; i++) {
+        const uint32_t e = m->edge[i];
+        while (e >= balloon->edge_end)
+            balloon++;
+        if (job->sim->edge_active[e])
+            solve_edge(job->sim, e, balloon->now->damping, job->h);
+    }
+}
+
+static void solve_edges(struct sim *sim, double h)
+{
+    const struct xpbd *m = sim->method;
+    for (int c = 0; c < COLOURS; c++) {
+        struct colour_job job = {sim, h, m->begin[c], m->begin[c + 1]};
+        if (job.begin == job.end)
+            continue;
+        if (c < COLOURS - 1)
+            threads_each(sim->pool, solve_colour, &job);
+        else
+            solve_colour(&job, 0, 1);
+    }
+}
+
+static void velocity_part(struct sim *sim, const struct sim_part *part, void *context)
+{
+    const double h = *(double *)context;
+    double(*before)[4] = sim->scratch[BEFORE];
+    for (uint32_t p = part->point_begin; p < part->point_end; p++)
+        for (int i = 0; i < 4; i++)
+            sim->velocity[p][i] = (sim->position[p][i] - before[p][i]) / h;
+}
+
+static void advance_scalars(struct sim *sim, double h)
+{
+    if (sim->scalar_count == 0)
+        return;
+    sim_forces(sim);
+    for (uint32_t i = 0; i < sim->scalar_count; i++)
+        sim->scalar[i] += h * sim->scalar_rate[i];
+}
+
+static enum status xpbd(struct sim *sim, double dt, struct error *err)
+{
+    (void)err;
+    double h = dt / SUBSTEPS;
+    for (int i = 0; i < SUBSTEPS; i++) {
+        advance_scalars(sim, h);
+        sim_each_part(sim, outer_part, NULL);
+        effects_run(sim, EFFECT_FORCES);
+        sim->evaluations++;
+        sim_each_part(sim, predict_part, &h);
+        solve_edges(sim, h);
+        sim_each_part(sim, velocity_part, &h);
+    }
+    return STATUS_OK;
+}
+
+const struct integrator integrator_xpbd = {
+    .name = "xpbd",
+    .order = 1,
+    .flags = INTEGRATOR_IMPLICIT,
+    .evaluations = SUBSTEPS,
+    .vectors = 1,
+    .oscillation_limit = INFINITY,
+    .decay_limit = INFINITY,
+    .open = open_xpbd,
+    .close = close_xpbd,
+    .advance = xpbd,
+    .source = "Macklin, Mueller and Chentanez, MIG 2016, 49; substeps: Macklin et al., SCA 2019, 2"};
