@@ -52,7 +52,17 @@ drag 2 300 300 400 330
 drag 3 300 300 320 300
 xdotool click 4
 settle
+xdotool keydown alt
+drag 1 400 300 470 320
+xdotool keyup alt
 press Home
+picture looked-around
+for view in 1 3 7 ctrl+1 ctrl+3 ctrl+7; do
+    press $view
+    picture "view-$view"
+done
+press 1
+drag 2 300 300 400 330
 [ "$(wc -l <"$journal")" = "$lines" ] || fail "looking around was an operation"
 picture turned
 
