@@ -36,6 +36,7 @@ void look_remember(struct sim *sim)
         return;
     memcpy(sim->past.edge_active, sim->edge_active, sim->edge_count);
     memcpy(sim->past.triangle_active, sim->triangle_active, sim->triangle_count);
+    sim->past.account = sim->ledger.account;
 }
 
 /* Breaking comes after the step: what is shown from inside it has not broken yet. */
@@ -47,6 +48,9 @@ static void swap_active(struct sim *sim)
     sim->triangle_active = past->triangle_active;
     past->edge_active = edges;
     past->triangle_active = triangles;
+    const struct sim_account account = sim->ledger.account;
+    sim->ledger.account = past->account;
+    past->account = account;
 }
 
 void sim_look(struct sim *sim, double time)

@@ -143,24 +143,25 @@ struct effect_hook {
     struct sim_balloon *balloon;
 };
 
+/* The energy's accounts (ledger.h). */
+struct sim_ledger {
+    bool on;
+    uint32_t first; /* of its own scalars, the last ones: they only record; the state are those before */
+    struct sim_account {
+        double begin;    /* kinetic and elastic energy when the accounts were opened */
+        double fracture; /* what springs held when they let go */
+        double user;     /* what changes of springs added */
+    } account;
+};
+
 /* What the last step began with, and what is put back after a look inside it; empty where nobody can look (look.c). */
 struct sim_past {
     unsigned char *edge_active, *triangle_active; /* [edge_count], [triangle_count] */
     double (*position)[4], (*velocity)[4];        /* [point_count] */
     double *scalar;                               /* [scalar_count] */
+    struct sim_account account;
     double time;
     bool looking;
-};
-
-/* The energy's accounts (ledger.h). */
-struct sim_ledger {
-    bool on;
-    uint32_t first; /* of its own scalars, the last ones: they only record; the state are those before */
-    struct {
-        double begin;    /* kinetic and elastic energy when the accounts were opened */
-        double fracture; /* what springs held when they let go */
-        double user;     /* what changes of springs added */
-    } account;
 };
 
 struct sim {

@@ -58,6 +58,7 @@ static void tear_triangles(struct sim *sim)
     if (!sim->edges_broke)
         return;
     sim->edges_broke = false;
+    sim->changed = true; /* also where an effect cut the edges after the step before */
     for (uint32_t t = 0; t < sim->triangle_count; t++) {
         const uint32_t *e = sim->triangle_edge[t];
         const int left = sim->edge_active[e[0]] + sim->edge_active[e[1]] + sim->edge_active[e[2]];

@@ -221,6 +221,7 @@ static void scenes_are_told_apart_by_the_keys_that_a_state_depends_on(void **sta
     assert_string_equal(difference("schedule[0].pressure=3"), "schedule[0].at is 0, and was not there");
     assert_string_equal(difference("view.camera=[0, 0, 5]"), "nothing");
     assert_string_equal(difference("view.stereo=mono"), "nothing");
+    assert_string_equal(difference("time.end=20"), "nothing");
     assert_string_equal(difference("balloons[0].colour=[0, 0, 1]"), "nothing");
     assert_string_equal(difference("balloons[0].mesh=cat.ply"), "nothing");
 

@@ -1,0 +1,294 @@
+/* Checkpoints: a run that is resumed is equal to the bit to one that never stopped, and damage is found. */
+#include "balloon.h"
+#include "common/crc.h"
+#include "common/file.h"
+#include "folder.h"
+#include "sim/checkpoint.h"
+#include "sim/ledger.h"
+
+static enum status save(struct sim *sim, const char *path, struct error *err)
+{
+    const struct checkpoint_run run = {
+        .first_break = -1, .seconds = 2.5, .shown = 7, .rows = "row\n", .row_bytes = 4};
+    return checkpoint_save(&sim, 1, &run, path, err);
+}
+
+static enum status load(struct sim *sim, const char *path, struct error *err)
+{
+    struct checkpoint_run run = {0};
+    enum status status = checkpoint_load(path, &sim, 1, &run, err);
+    free(run.rows);
+    return status;
+}
+
+enum { STEPS = 18 };
+
+/* A run that bursts on the way: saved and resumed after each of its steps, it goes on as it did. */
+static void check_resuming(const char *const *changes, unsigned workers)
+{
+    struct error err = {0};
+    struct balloon b;
+    uint64_t hash[STEPS + 1];
+    open_balloon(&b, 1, changes);
+    for (int i = 0; i <= STEPS; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "%d.ck", i);
+        hash[i] = sim_hash(&b.sim);
+        assert_ok(save(&b.sim, name, &err), &err);
+        if (i < STEPS)
+            steps(&b, 1);
+    }
+    assert_true(b.sim.broken > 0);
+    for (int i = 0; i <= STEPS; i++) {
+        char name[32];
+        struct sim sim;
+        snprintf(name, sizeof name, "%d.ck", i);
+        assert_ok(sim_open(&sim, &b.scene, &b.mesh, workers, &err), &err);
+        assert_ok(load(&sim, name, &err), &err);
+        for (int at = i; at <= STEPS; at++) {
+            if (sim_hash(&sim) != hash[at])
+                fail_msg("%s: resumed after step %d, it is another run at step %d", b.sim.integrator->name, i,
+                         at);
+            if (at < STEPS)
+                assert_ok(sim_step(&sim, &err), &err);
+        }
+        sim_clear(&sim);
+        unlink(name);
+    }
+    close_balloon(&b);
+}
+
+static void a_resumed_run_is_equal_to_the_bit_to_one_that_never_stopped(void **state)
+{
+    (void)state;
+    for (size_t i = 0; integrators[i]; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "time.integrator=%s", integrators[i]->name);
+        check_resuming(SETTINGS(name, "balloons[0].pressure=40", "balloons[0].threshold=1.1",
+                                "schedule[0].at=0.2", "schedule[0].pressure=50", "schedule[1].at=0.3",
+                                "schedule[1].step=0.02", "balloons[0].rip.at=0.35"),
+                       (unsigned)i % 3 + 1);
+    }
+}
+
+static void a_checkpoint_carries_what_the_program_knows_of_the_run(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct balloon b;
+    open_balloon(&b, 0, SETTINGS("balloons[0].pressure=10"));
+    assert_ok(save(&b.sim, "a.ck", &err), &err);
+    struct checkpoint_run run = {0};
+    assert_ok(checkpoint_load("a.ck", &(struct sim *){&b.sim}, 1, &run, &err), &err);
+    assert_near(run.first_break, -1, 0);
+    assert_near(run.seconds, 2.5, 0);
+    assert_int_equal(run.shown, 7);
+    assert_int_equal(run.row_bytes, 4);
+    assert_string_equal(run.rows, "row\n");
+    free(run.rows);
+    unlink("a.ck");
+    close_balloon(&b);
+}
+
+static void companions_are_kept_too_and_may_be_left_behind(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct balloon a, b;
+    open_balloon(&a, 0, SETTINGS("balloons[0].pressure=10"));
+    open_balloon(&b, 0, SETTINGS("balloons[0].pressure=10"));
+    steps(&a, 3);
+    steps(&b, 6);
+    const uint64_t hash[2] = {sim_hash(&a.sim), sim_hash(&b.sim)};
+    struct sim *const sims[2] = {&a.sim, &b.sim};
+    struct checkpoint_run run = {0};
+    assert_ok(checkpoint_save(sims, 2, &run, "two.ck", &err), &err);
+    assert_ok(checkpoint_save(sims, 1, &run, "one.ck", &err), &err);
+    steps(&a, 1);
+    steps(&b, 1);
+    assert_ok(load(&a.sim, "two.ck", &err), &err);
+    assert_true(sim_hash(&a.sim) == hash[0] && sim_hash(&b.sim) != hash[1]);
+    assert_ok(checkpoint_load("two.ck", sims, 2, &run, &err), &err);
+    assert_true(sim_hash(&b.sim) == hash[1]);
+    free(run.rows);
+    assert_refused(checkpoint_load("one.ck", sims, 2, &run, &err), STATUS_INPUT, "without --estimate", &err);
+    unlink("one.ck");
+    unlink("two.ck");
+    close_balloon(&a);
+    close_balloon(&b);
+}
+
+/* The accounts go along where they are kept, begin where they were not, and are left behind where nobody wants them. */
+static void the_ledger_goes_along(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct balloon b, with, without;
+    open_balloon(&b, 1, SETTINGS("balloons[0].pressure=10"));
+    open_balloon(&with, 1, SETTINGS("balloons[0].pressure=10"));
+    open_balloon(&without, 1, SETTINGS("balloons[0].pressure=10"));
+    assert_ok(ledger_open(&b.sim, &err), &err);
+    assert_ok(ledger_open(&with.sim, &err), &err);
+    steps(&b, 5);
+    assert_ok(save(&b.sim, "with.ck", &err), &err);
+    assert_ok(load(&without.sim, "with.ck", &err), &err);
+    assert_ok(save(&without.sim, "without.ck", &err), &err);
+    assert_ok(load(&with.sim, "with.ck", &err), &err);
+    steps(&b, 5);
+    steps(&with, 5);
+    steps(&without, 5);
+    assert_true(sim_hash(&with.sim) == sim_hash(&without.sim));
+    struct sim_measures m = sim_measure(&b.sim);
+    const struct ledger_balance wanted = ledger_balance(&b.sim, &m), got = ledger_balance(&with.sim, &m);
+    assert_memory_equal(&got, &wanted, sizeof got);
+
+    assert_ok(load(&with.sim, "without.ck", &err), &err);
+    m = sim_measure(&with.sim);
+    assert_near(ledger_balance(&with.sim, &m).pressure_work, 0, 0);
+    assert_near(ledger_balance(&with.sim, &m).error, 0, 1e-12 * m.kinetic_energy);
+    unlink("with.ck");
+    unlink("without.ck");
+    close_balloon(&b);
+    close_balloon(&with);
+    close_balloon(&without);
+}
+
+static void another_scene_is_refused_with_the_key_that_differs(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *change, *message;
+    } cases[] = {
+        {"balloons[0].pressure=12", "a.ck: is of another scene: balloons[0].pressure is 12, and was 10"},
+        {"time.integrator=explicit-euler", "time.integrator is explicit-euler, and was symplectic-euler"},
+        {"balloons[0].rip.at=1", "balloons[0].rip.at is 1, and was not there"},
+        {"balloons[0].radius=44", "balloons[0].radius is 44, and was 45"},
+        {"schedule[0].pressure=1", "schedule[0].at is 0, and was not there"},
+    };
+    struct error err = {0};
+    struct balloon b;
+    open_balloon(&b, 1, SETTINGS("balloons[0].pressure=10"));
+    assert_ok(save(&b.sim, "a.ck", &err), &err);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct balloon other;
+        open_balloon(&other, 1, SETTINGS(cases[i].change));
+        assert_refused(load(&other.sim, "a.ck", &err), STATUS_INPUT, cases[i].message, &err);
+        close_balloon(&other);
+    }
+    struct balloon finer;
+    open_balloon(&finer, 2, SETTINGS("balloons[0].pressure=10"));
+    assert_refused(load(&finer.sim, "a.ck", &err), STATUS_INPUT, "other points, edges or triangles", &err);
+    close_balloon(&finer);
+    b.mesh.position[3][1] += 1e-9; /* as many points, and one of them elsewhere */
+    sim_clear(&b.sim);
+    assert_ok(sim_open(&b.sim, &b.scene, &b.mesh, 1, &err), &err);
+    assert_refused(load(&b.sim, "a.ck", &err), STATUS_INPUT, "other points, edges or triangles", &err);
+    unlink("a.ck");
+    close_balloon(&b);
+}
+
+static void a_file_that_is_no_checkpoint_is_refused(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct balloon b;
+    open_balloon(&b, 0, SETTINGS("balloons[0].pressure=10"));
+    assert_refused(load(&b.sim, "none.ck", &err), STATUS_FILE, "none.ck: cannot open", &err);
+    write_bytes("a.ck", "", 0);
+    assert_refused(load(&b.sim, "a.ck", &err), STATUS_INPUT, "a.ck: not a checkpoint", &err);
+    write_bytes("a.ck", "time = { };", 11);
+    assert_refused(load(&b.sim, "a.ck", &err), STATUS_INPUT, "not a checkpoint", &err);
+    unlink("a.ck");
+    close_balloon(&b);
+}
+
+/* Every byte flipped, and every length: a message each time, that names the chunk where there is one. */
+static void damage_anywhere_is_found(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct balloon b;
+    struct bytes good = {0};
+    open_balloon(&b, 0, SETTINGS("balloons[0].pressure=10"));
+    steps(&b, 2);
+    assert_ok(save(&b.sim, "a.ck", &err), &err);
+    assert_ok(file_read("a.ck", &good, &err), &err);
+    for (size_t at = 0; at < good.size; at++) {
+        good.data[at] ^= 0x20;
+        write_bytes("a.ck", good.data, good.size);
+        assert_refused(load(&b.sim, "a.ck", &err), STATUS_INPUT, at < 8 ? "not a checkpoint" : "chunk ",
+                       &err);
+        good.data[at] ^= 0x20;
+        write_bytes("a.ck", good.data, at);
+        assert_refused(load(&b.sim, "a.ck", &err), STATUS_INPUT, at < 8 ? "not a checkpoint" : "cut short",
+                       &err);
+    }
+    write_bytes("a.ck", good.data, good.size + 1);
+    assert_refused(load(&b.sim, "a.ck", &err), STATUS_INPUT, "1 bytes follow chunk END", &err);
+    bytes_clear(&good);
+    unlink("a.ck");
+    close_balloon(&b);
+}
+
+/* Finds the block of this name in the file's bytes, flips a bit of its first byte, and makes the checksum match. */
+static void spoil(struct bytes *file, const char *block, unsigned char bit)
+{
+    unsigned char *name = memmem(file->data, file->size, block, strlen(block));
+    assert_non_null(name);
+    unsigned char *head = name - 4 - 12;
+    uint64_t size;
+    memcpy(&size, head + 4, sizeof size);
+    name[strlen(block)] ^= bit;
+    const uint32_t crc = crc32_bytes(0, head, 12 + size);
+    memcpy(head + 12 + size, &crc, sizeof crc);
+}
+
+static void what_is_sound_and_yet_no_state_is_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *block;
+        unsigned char bit;
+    } cases[] = {{"edge active", 2}, {"triangle active", 0x80}, {"edges broke", 4}, {"substeps", 1}};
+    struct error err = {0};
+    struct balloon b;
+    open_balloon(&b, 0, SETTINGS("balloons[0].pressure=10"));
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct bytes file = {0};
+        steps(&b, 1);
+        assert_ok(save(&b.sim, "a.ck", &err), &err);
+        assert_ok(file_read("a.ck", &file, &err), &err);
+        spoil(&file, cases[i].block, cases[i].bit);
+        write_bytes("a.ck", file.data, file.size);
+        struct sim sim;
+        assert_ok(sim_open(&sim, &b.scene, &b.mesh, 1, &err), &err);
+        assert_refused(load(&sim, "a.ck", &err), STATUS_INPUT, "is no state", &err);
+        sim_clear(&sim);
+        bytes_clear(&file);
+    }
+    unlink("a.ck");
+    close_balloon(&b);
+}
+
+/* Hundreds of files that are synced: in memory, where the machine has room there. */
+static int enter_memory(void **state)
+{
+    if (!access("/dev/shm", W_OK))
+        strcpy(test_folder, "/dev/shm/balloon-XXXXXX");
+    return enter_folder(state);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_resumed_run_is_equal_to_the_bit_to_one_that_never_stopped),
+        cmocka_unit_test(a_checkpoint_carries_what_the_program_knows_of_the_run),
+        cmocka_unit_test(companions_are_kept_too_and_may_be_left_behind),
+        cmocka_unit_test(the_ledger_goes_along),
+        cmocka_unit_test(another_scene_is_refused_with_the_key_that_differs),
+        cmocka_unit_test(a_file_that_is_no_checkpoint_is_refused),
+        cmocka_unit_test(damage_anywhere_is_found),
+        cmocka_unit_test(what_is_sound_and_yet_no_state_is_refused),
+    };
+    return cmocka_run_group_tests(tests, enter_memory, leave_folder);
+}
