@@ -108,6 +108,21 @@ static double default_cube(const struct making *making)
     return fmin(1.0 / 3, extent / 24.0);
 }
 
+/* STATUS_INPUT when no point of the field reaches the threshold. */
+static enum status check_reached(const struct making *making, struct error *err)
+{
+    double value, point[3], threshold = making->options->threshold, side = making->field.side;
+    if (field_largest(&making->field, &value, point, err))
+        return err->status;
+    if (value >= threshold)
+        return STATUS_OK;
+    return error_set(
+        err, STATUS_INPUT,
+        "no point reaches the threshold %g: the largest value of the field found is %.4g, at (%.4g, %.4g, "
+        "%.4g); lower the threshold or sigma, or use more fields",
+        threshold, value, point[0] / side, point[1] / side, point[2] / side);
+}
+
 /* Chooses the cube size for a number of triangles. Their number falls like 1/h^2, though in steps: each
  * turn corrects by that law, halving instead where that would leave the sizes known to give too many and
  * too few. */
@@ -119,6 +134,8 @@ static enum status choose_cube(const struct making *making, double *cube, struct
     for (int turn = 0; turn < 24 && best > 0.02; turn++) {
         size_t count = 0;
         if (count_triangles(making, size, &count, err))
+            return err->status;
+        if (count == 0 && check_reached(making, err))
             return err->status;
         double off = fabs((double)count / wanted - 1);
         if (off < best) {
@@ -137,16 +154,8 @@ static enum status choose_cube(const struct making *making, double *cube, struct
 /* Says why there is no surface. */
 static enum status explain_nothing(const struct making *making, double cube, struct error *err)
 {
-    double value, point[3], threshold = making->options->threshold;
-    if (field_largest(&making->field, &value, point, err))
+    if (check_reached(making, err))
         return err->status;
-    if (value < threshold)
-        return error_set(
-            err, STATUS_INPUT,
-            "no point reaches the threshold %g: the largest value of the field found is %.4g, at (%.4g, "
-            "%.4g, %.4g); lower the threshold or sigma, or use more fields",
-            threshold, value, point[0] / making->field.side, point[1] / making->field.side,
-            point[2] / making->field.side);
     double works = fmin(cube, 2 * (making->field.side + making->field.reach));
     size_t count = 0;
     for (int turn = 0; turn < 40 && count == 0; turn++) {
@@ -174,6 +183,8 @@ static enum status relax(const struct making *making, struct mesh *mesh, struct 
     enum status status = relax_mesh(mesh, &settings, &stats, err);
     making->stats->evaluations += stats.evaluations;
     making->stats->worst_residual = stats.worst_residual;
+    if (stats.bytes > making->stats->bytes)
+        making->stats->bytes = stats.bytes;
     return status;
 }
 

@@ -415,6 +415,8 @@ static void what_has_no_surface_is_refused_with_the_reason(void **state)
     options.threshold = 1.5;
     /* erf(1 / (0.35 sqrt 2))^3 */
     refuse(&cube, &options, STATUS_INPUT, "the largest value of the field found is 0.9872");
+    options.triangles = 500;
+    refuse(&cube, &options, STATUS_INPUT, "the largest value of the field found is 0.9872");
     options = surface_defaults();
     options.cube_size = 1e-6;
     refuse(&cube, &options, STATUS_RANGE, "too small");
