@@ -10,6 +10,9 @@ enum { LINES_MAX = 8 * 120 + 40, PREVIEW_WIDTH = 256, PREVIEW_HEIGHT = 192 };
 /* What a frame may take for bricks that changed, beside being drawn. */
 #define FRAME_SECONDS 0.02
 
+/* Outlines of a sculpture that rests are smooth, unless it has so many faces that the hand would wait for that. */
+enum { FACES_SMOOTH = 150000 };
+
 static const float yellow[3] = {0.9f, 0.6f, 0.05f}, pale[3] = {0.75f, 0.75f, 0.72f},
                    blue[3] = {0.1f, 0.25f, 0.8f};
 
@@ -68,7 +71,8 @@ static enum status draw_sculpture(struct app *app, const struct render_view *vie
         return status;
     const double drawn = app_seconds();
     struct render_view smooth = *view;
-    smooth.smooth_edges = !moving;
+    smooth.smooth_edges = !moving && app->shown == &app->levels[rest] &&
+                          render_solid_faces(app->shown->solid) < FACES_SMOOTH;
     scene->solid = app->shown->solid;
     status = render_show(app->render, &smooth, scene, err);
     if (moving && app->shown == &app->levels[level])
