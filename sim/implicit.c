@@ -81,7 +81,8 @@ static double evaluate(struct sim *sim, double c)
     sim_forces(sim);
     for (uint32_t i = 0; i < sim->scalar_count; i++) {
         const double scalar = base[i] + c * sim->scalar_rate[i];
-        change = fmax(change, fabs(scalar - sim->scalar[i]) / fmax(fabs(scalar), fabs(base[i])));
+        if (i < sim_state_scalars(sim)) /* what only records must not decide when the iteration ends */
+            change = fmax(change, fabs(scalar - sim->scalar[i]) / fmax(fabs(scalar), fabs(base[i])));
         sim->scalar[i] = scalar;
     }
     return change;

@@ -1,0 +1,434 @@
+/* The methods that move the points: their order, their coefficients, what they keep, what they forget. */
+#include "balloon.h"
+#include "sim/ledger.h"
+#include "sim/runge_kutta.h"
+
+/* A balloon that is out of rest, with or without damping: smooth for as long as nothing breaks. */
+static const char *const undamped[] = {
+    "balloons[0].damping=0", "balloons[0].pressure=4", "balloons[0].threshold=100",
+    "time.end=0.4",          "time.guard=off",         NULL};
+static const char *const damped[] = {"balloons[0].damping=0.3",
+                                     "balloons[0].pressure=4",
+                                     "balloons[0].threshold=100",
+                                     "time.end=0.4",
+                                     "time.guard=off",
+                                     NULL};
+
+static void open_moving(struct balloon *b, const char *const *settings, const char *integrator,
+                        const char *also)
+{
+    char method[64];
+    snprintf(method, sizeof method, "time.integrator=%s", integrator);
+    const char *all[16] = {method, also};
+    for (int i = 0; settings[i]; i++)
+        all[i + 2] = settings[i];
+    open_balloon(b, 2, all);
+    for (uint32_t p = 0; p < b->sim.point_count; p++)
+        for (int i = 0; i < 3; i++) /* long waves, so that no spring is compressed to nothing */
+            b->sim.velocity[p][i] = 20 * sin(b->sim.position[p][(i + 1) % 3] / 20 + i);
+}
+
+static void run_to_end(struct balloon *b)
+{
+    struct error err = {0};
+    while (!sim_at_end(&b->sim))
+        assert_ok(sim_step(&b->sim, &err), &err);
+}
+
+/* RMS distance between the points of two states, over the radius. */
+static double difference(const struct balloon *a, const struct balloon *b)
+{
+    double sum = 0;
+    for (uint32_t p = 0; p < a->sim.point_count; p++)
+        for (int i = 0; i < 3; i++)
+            sum += pow(a->sim.position[p][i] - b->sim.position[p][i], 2);
+    return sqrt(sum / a->sim.point_count) / a->sim.balloons[0].radius;
+}
+
+static double error_against(const struct balloon *reference, const char *const *settings,
+                            const char *integrator, const char *also)
+{
+    struct balloon b;
+    open_moving(&b, settings, integrator, also);
+    run_to_end(&b);
+    const double error = difference(&b, reference);
+    close_balloon(&b);
+    return error;
+}
+
+/* Fixed steps: four steps of one size and its halves, thrice. */
+static void check_order(const char *const *settings, const struct balloon *reference, const char *name)
+{
+    static const char *const step[] = {"time.step=0.008", "time.step=0.004", "time.step=0.002",
+                                       "time.step=0.001"};
+    const struct integrator *method = integrator_find(name);
+    double last = 0;
+    for (int i = 0; i < 4; i++) {
+        const double error = error_against(reference, settings, name, step[i]);
+        if (i > 0 && error > 1e-12) /* below, rounding in 400 steps */
+            assert_near(log2(last / error), method->order, 0.2);
+        last = error;
+    }
+}
+
+/* The reference: 3200 steps of a method of another family than the one that is looked at. */
+static void every_fixed_step_has_its_order(const char *const *settings)
+{
+    static const char *const names[] = {"symplectic-euler", "explicit-euler", "verlet", "rk4", "rkn4"};
+    struct balloon rk4, rkn4;
+    open_moving(&rk4, settings, "rk4", "time.step=0.000125");
+    open_moving(&rkn4, settings, "rkn4", "time.step=0.00025");
+    run_to_end(&rk4);
+    run_to_end(&rkn4);
+    assert_true(difference(&rk4, &rkn4) < 1e-11);
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        check_order(settings, strcmp(names[i], "rk4") ? &rk4 : &rkn4, names[i]);
+    close_balloon(&rk4);
+    close_balloon(&rkn4);
+}
+
+static void each_fixed_step_method_has_its_order_under_pressure(void **state)
+{
+    (void)state;
+    every_fixed_step_has_its_order(undamped);
+}
+
+static void and_with_damping(void **state)
+{
+    (void)state;
+    every_fixed_step_has_its_order(damped);
+}
+
+/* A tenth of the tolerance, a tenth of the error, within a factor of 4 from decade to decade: local errors of fifth order are
+ * kept at the tolerance by steps whose number grows by 10^(1/5). */
+static void the_adaptive_methods_error_is_proportional_to_their_tolerance(void **state)
+{
+    (void)state;
+    struct balloon reference;
+    open_moving(&reference, damped, "rk4", "time.step=0.000125");
+    run_to_end(&reference);
+    for (size_t k = 0; integrators[k]; k++) {
+        double last = 0;
+        for (int i = 4; i <= 8 && integrators[k]->flags & INTEGRATOR_ADAPTIVE; i++) {
+            struct balloon b;
+            char tolerance[32];
+            snprintf(tolerance, sizeof tolerance, "time.tolerance=1e-%d", i);
+            open_moving(&b, damped, integrators[k]->name, tolerance);
+            b.sim.whole_step = b.sim.step = 1; /* no limit but its own */
+            run_to_end(&b);
+            const double error = difference(&b, &reference);
+            print_message("%s, %s: error %.2g in %d steps, %d forces\n", integrators[k]->name, tolerance,
+                          error, (int)b.sim.steps, (int)b.sim.evaluations);
+            assert_true(error < 10 * pow(10, -i));
+            assert_true(i == 4 || (last / error > 2.5 && last / error < 40));
+            last = error;
+            close_balloon(&b);
+        }
+    }
+    close_balloon(&reference);
+}
+
+/* Every order condition up to the fifth order (Butcher 1963: 17 trees), each the product of what hangs on the root. */
+static void tree(const struct runge_kutta *method, const char **shape, double *value)
+{
+    /* "[" opens a node, "]" closes it: value[i] becomes the product over its branches of sum_j a_ij branch_j. */
+    double branch[RUNGE_KUTTA_STAGES_MAX];
+    for (int i = 0; i < method->stages; i++)
+        value[i] = 1;
+    for (++*shape; **shape == '[';) {
+        tree(method, shape, branch);
+        for (int i = 0; i < method->stages; i++) {
+            double sum = 0;
+            for (int j = 0; j < method->stages; j++)
+                sum += method->a[i][j] * branch[j];
+            value[i] *= sum;
+        }
+    }
+    ++*shape;
+}
+
+/* The product of the sizes of all subtrees: gamma, so that sum b value = 1/gamma. */
+static double density(const char **shape, int *size)
+{
+    double product = 1;
+    *size = 1;
+    for (++*shape; **shape == '[';) {
+        int part;
+        product *= density(shape, &part);
+        *size += part;
+    }
+    ++*shape;
+    return product * *size;
+}
+
+static void the_tableaux_meet_all_order_conditions(void **state)
+{
+    (void)state;
+    static const char *const trees[] = {"[]",         "[[]]",       "[[][]]",     "[[[]]]",     "[[][][]]",
+                                        "[[[]][]]",   "[[[][]]]",   "[[[[]]]]",   "[[][][][]]", "[[[]][][]]",
+                                        "[[[][]][]]", "[[[[]]][]]", "[[[]][[]]]", "[[[][][]]]", "[[[[]][]]]",
+                                        "[[[[][]]]]", "[[[[[]]]]]"};
+    const struct runge_kutta *methods[] = {&runge_kutta_classic, &runge_kutta_dormand_prince};
+    for (int m = 0; m < 2; m++)
+        for (int t = 0; t < (m == 0 ? 8 : 17); t++) {
+            double value[RUNGE_KUTTA_STAGES_MAX], sum = 0;
+            int size;
+            const char *shape = trees[t], *again = trees[t];
+            tree(methods[m], &shape, value);
+            for (int i = 0; i < methods[m]->stages; i++)
+                sum += methods[m]->weights[i] * value[i];
+            assert_near(sum, 1 / density(&again, &size), 1e-14); /* terms up to 12, 7 of them */
+        }
+}
+
+/* What rkn4 does to an oscillator in one step of dt w = z is off by z^5 at most: its coefficients meet every condition that a
+ * linear force can test. */
+static void a_step_of_rkn4_is_off_by_the_fifth_power(void **state)
+{
+    (void)state;
+    double last = 0;
+    for (int i = 0; i < 3; i++) {
+        char step[32];
+        snprintf(step, sizeof step, "time.step=%g", 0.02 / (1 << i));
+        struct balloon rough, fine;
+        open_moving(&rough, undamped, "rkn4", step);
+        open_moving(&fine, undamped, "rk4", "time.step=0.0005");
+        steps(&rough, 1);
+        steps(&fine, 40 >> i);
+        const double error = difference(&rough, &fine);
+        if (i > 0)
+            assert_near(log2(last / error), 5, 0.3);
+        last = error;
+        close_balloon(&rough);
+        close_balloon(&fine);
+    }
+}
+
+static double energy(struct balloon *b)
+{
+    const struct sim_measures m = sim_measure(&b->sim);
+    return m.kinetic_energy + m.elastic_energy;
+}
+
+/* Over 20 thousand steps without damping or pressure a symplectic method's energy wavers, but does not drift: the last tenth's
+ * worst is no more than twice the first's. */
+static void symplectic_methods_keep_the_energy(void **state)
+{
+    (void)state;
+    static const char *const quiet[] = {"balloons[0].damping=0", "balloons[0].pressure=0",
+                                        "balloons[0].threshold=100", "time.end=1e6", NULL};
+    for (size_t k = 0; integrators[k]; k++) {
+        if (!(integrators[k]->flags & INTEGRATOR_SYMPLECTIC))
+            continue;
+        struct balloon b;
+        open_moving(&b, quiet, integrators[k]->name, "time.step=0.02");
+        const double whole = energy(&b);
+        double worst[10] = {0};
+        for (int tenth = 0; tenth < 10; tenth++)
+            for (int i = 0; i < 40; i++) {
+                steps(&b, 50);
+                worst[tenth] = fmax(worst[tenth], fabs(energy(&b) / whole - 1));
+            }
+        assert_true(worst[9] <= 2 * worst[0] + 1e-12);
+        close_balloon(&b);
+    }
+}
+
+/* The ledger's scalars flow with the method's order, so the account's error falls with it; and nobody else notices them. */
+static void scalars_are_integrated_along_with_the_same_order(void **state)
+{
+    (void)state;
+    static const char *const step[] = {"time.step=0.008", "time.step=0.004"};
+    struct error err = {0};
+    for (size_t k = 0; integrators[k]; k++) {
+        if (integrators[k]->flags & INTEGRATOR_ADAPTIVE)
+            continue;
+        double error[2];
+        for (int i = 0; i < 2; i++) {
+            struct balloon b, alone;
+            open_moving(&b, damped, integrators[k]->name, step[i]);
+            open_moving(&alone, damped, integrators[k]->name, step[i]);
+            assert_ok(ledger_open(&b.sim, &err), &err);
+            run_to_end(&b);
+            run_to_end(&alone);
+            const struct sim_measures m = sim_measure(&b.sim);
+            error[i] = fabs(ledger_balance(&b.sim, &m).error) / m.kinetic_energy;
+            assert_true(sim_hash(&b.sim) == sim_hash(&alone.sim));
+            close_balloon(&b);
+            close_balloon(&alone);
+        }
+        print_message("%s: balance %g, %g\n", integrators[k]->name, error[0], error[1]);
+        assert_true(error[1] < 1e-11 || log2(error[0] / error[1]) > integrators[k]->order - 0.5);
+    }
+}
+
+static void any_number_of_threads_gives_the_same_bits(void **state)
+{
+    (void)state;
+    static const unsigned workers[] = {1, 2, 3, 7};
+    struct error err = {0};
+    for (size_t k = 0; integrators[k]; k++) {
+        struct balloon b;
+        uint64_t hash[4];
+        /* it bursts on the way */
+        open_moving(&b, SETTINGS("balloons[0].pressure=12", "balloons[0].threshold=1.1", "time.end=0.6"),
+                    integrators[k]->name, "time.step=0.01");
+        for (int w = 0; w < 4; w++) {
+            struct sim sim;
+            assert_ok(sim_open(&sim, &b.scene, &b.mesh, workers[w], &err), &err);
+            while (!sim_at_end(&sim))
+                assert_ok(sim_step(&sim, &err), &err);
+            assert_true(sim.broken > 0);
+            hash[w] = sim_hash(&sim);
+            assert_true(hash[w] == hash[0]);
+            sim_clear(&sim);
+        }
+        close_balloon(&b);
+    }
+}
+
+/* A state in the middle of a step, and what a fine run says of that moment: fourth order, as far as a step is. */
+static void a_look_inside_a_step_sees_what_was_there_and_disturbs_nothing(void **state)
+{
+    (void)state;
+    for (size_t k = 0; integrators[k]; k++) {
+        if (!integrators[k]->look)
+            continue;
+        struct balloon looked, alone, fine;
+        open_moving(&looked, damped, integrators[k]->name, "time.tolerance=1e-7");
+        open_moving(&alone, damped, integrators[k]->name, "time.tolerance=1e-7");
+        open_moving(&fine, damped, "rk4", "time.step=0.0005");
+        for (double frame = 0; !sim_at_end(&looked.sim);) {
+            steps(&looked, 1);
+            steps(&alone, 1);
+            for (; frame <= looked.sim.time && frame < 0.4; frame = fine.sim.time) {
+                sim_look(&looked.sim, frame);
+                assert_near(looked.sim.time, frame, 0);
+                assert_true(difference(&looked, &fine) < 1e-6); /* ten times the tolerance */
+                sim_look_end(&looked.sim);
+                steps(&fine, 7);
+            }
+            assert_true(sim_hash(&looked.sim) == sim_hash(&alone.sim));
+        }
+        assert_near(looked.sim.time, 0.4, 0);
+        close_balloon(&looked);
+        close_balloon(&alone);
+        close_balloon(&fine);
+    }
+}
+
+static void what_breaks_at_the_end_of_a_step_is_whole_inside_it(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_moving(&b, SETTINGS("balloons[0].pressure=12", "balloons[0].threshold=1.1"), "rk-adaptive",
+                "time.step=0.01");
+    double before = 0;
+    while (!b.sim.broken && !sim_at_end(&b.sim)) {
+        before = b.sim.time;
+        steps(&b, 1);
+    }
+    sim_look(&b.sim, (before + b.sim.time) / 2);
+    assert_int_equal(sim_measure(&b.sim).edges_active, b.sim.edge_count);
+    sim_look_end(&b.sim);
+    assert_int_equal(sim_measure(&b.sim).edges_active, b.sim.edge_count - b.sim.broken);
+    close_balloon(&b);
+}
+
+static void adaptive_steps_meet_the_schedule_and_the_end_exactly(void **state)
+{
+    (void)state;
+    for (size_t k = 0; integrators[k]; k++) {
+        if (!(integrators[k]->flags & INTEGRATOR_ADAPTIVE))
+            continue;
+        struct balloon b;
+        open_moving(&b,
+                    SETTINGS("balloons[0].pressure=2", "time.end=0.5", "schedule[0].at=0.1234567",
+                             "schedule[0].pressure=3"),
+                    integrators[k]->name, "time.step=0.05");
+        bool met = false;
+        while (!sim_at_end(&b.sim)) {
+            steps(&b, 1);
+            met |= b.sim.time == 0.1234567;
+            assert_true(b.sim.taken <= 0.05 * (1 + 1e-9));
+        }
+        assert_true(met);
+        assert_near(b.sim.time, 0.5, 0);
+        close_balloon(&b);
+    }
+}
+
+/* A method that remembers must not go on with what was true before an event: three steps at rest, and the fourth, under
+ * pressure, is as a first one under pressure. */
+static void after_an_event_nothing_remembered_is_used(void **state)
+{
+    (void)state;
+    for (size_t k = 0; integrators[k]; k++) {
+        struct balloon late, early;
+        open_moving(&late,
+                    SETTINGS("balloons[0].damping=0", "balloons[0].pressure=0", "time.end=0.004",
+                             "schedule[0].at=0.003", "schedule[0].pressure=5"),
+                    integrators[k]->name, "time.step=0.001");
+        open_moving(&early, SETTINGS("balloons[0].damping=0", "balloons[0].pressure=5", "time.end=0.001"),
+                    integrators[k]->name, "time.step=0.001");
+        memset(late.sim.velocity, 0, late.sim.point_count * sizeof *late.sim.velocity);
+        memset(early.sim.velocity, 0, early.sim.point_count * sizeof *early.sim.velocity);
+        run_to_end(&late);
+        run_to_end(&early);
+        if (integrators[k]->flags & INTEGRATOR_ADAPTIVE)
+            assert_true(difference(&late, &early) < 1e-9); /* it moves by 1e-6, to within the tolerance */
+        else
+            assert_memory_equal(late.sim.position, early.sim.position,
+                                late.sim.point_count * sizeof *late.sim.position);
+        close_balloon(&late);
+        close_balloon(&early);
+    }
+}
+
+static void a_tolerance_that_the_precision_cannot_give_is_refused(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct balloon b;
+    open_moving(&b, SETTINGS("balloons[0].position=[9e5, 0, 0]", "balloons[0].radius=0.001"), "rk-adaptive",
+                "time.tolerance=1e-2");
+    sim_clear(&b.sim);
+    assert_ok(scene_set(&b.scene, "time.tolerance=1e-7", &err), &err);
+    assert_refused(sim_open(&b.sim, &b.scene, &b.mesh, 1, &err), STATUS_RANGE, "radii at best", &err);
+    assert_refused(scene_set(&b.scene, "time.tolerance=0", &err), STATUS_INPUT, "1e-12", &err);
+    close_balloon(&b);
+}
+
+static void an_unknown_integrator_gets_the_list(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct balloon b;
+    open_moving(&b, damped, "rk4", "time.step=0.01");
+    enum status status = scene_set(&b.scene, "time.integrator=rk5", &err);
+    assert_true(status != STATUS_OK);
+    for (size_t i = 0; scene_integrator_names[i]; i++)
+        assert_non_null(strstr(err.text, scene_integrator_names[i]));
+    close_balloon(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_fixed_step_method_has_its_order_under_pressure),
+        cmocka_unit_test(and_with_damping),
+        cmocka_unit_test(the_adaptive_methods_error_is_proportional_to_their_tolerance),
+        cmocka_unit_test(the_tableaux_meet_all_order_conditions),
+        cmocka_unit_test(a_step_of_rkn4_is_off_by_the_fifth_power),
+        cmocka_unit_test(symplectic_methods_keep_the_energy),
+        cmocka_unit_test(scalars_are_integrated_along_with_the_same_order),
+        cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
+        cmocka_unit_test(a_look_inside_a_step_sees_what_was_there_and_disturbs_nothing),
+        cmocka_unit_test(what_breaks_at_the_end_of_a_step_is_whole_inside_it),
+        cmocka_unit_test(adaptive_steps_meet_the_schedule_and_the_end_exactly),
+        cmocka_unit_test(after_an_event_nothing_remembered_is_used),
+        cmocka_unit_test(a_tolerance_that_the_precision_cannot_give_is_refused),
+        cmocka_unit_test(an_unknown_integrator_gets_the_list),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
