@@ -1,29 +1,30 @@
 /* The two Euler methods: one force a step, first order. */
 #include "sim/methods.h"
+#include "sim/rows.h"
 
 /* v += a dt, then x += v dt: velocity first. The update with which the paper's claims hold. */
 static void part_velocity_first(struct sim *sim, const struct sim_part *part, void *context)
 {
-    const double dt = *(double *)context;
+    const double dt = *(double *)context, *mass = sim->mass;
+    row *position = (row *)sim->position, *velocity = (row *)sim->velocity;
+    const row *force = (const row *)sim->force;
     for (uint32_t p = part->point_begin; p < part->point_end; p++) {
-        const double kick = dt / sim->mass[p];
-        for (int i = 0; i < 4; i++) {
-            sim->velocity[p][i] += sim->force[p][i] * kick;
-            sim->position[p][i] += sim->velocity[p][i] * dt;
-        }
+        const row v = velocity[p] + force[p] * (dt / mass[p]);
+        velocity[p] = v;
+        position[p] += v * dt;
     }
 }
 
 /* x += v dt, then v += a dt with the acceleration at the old place: the textbook's Euler. */
 static void part_position_first(struct sim *sim, const struct sim_part *part, void *context)
 {
-    const double dt = *(double *)context;
+    const double dt = *(double *)context, *mass = sim->mass;
+    row *position = (row *)sim->position, *velocity = (row *)sim->velocity;
+    const row *force = (const row *)sim->force;
     for (uint32_t p = part->point_begin; p < part->point_end; p++) {
-        const double kick = dt / sim->mass[p];
-        for (int i = 0; i < 4; i++) {
-            sim->position[p][i] += sim->velocity[p][i] * dt;
-            sim->velocity[p][i] += sim->force[p][i] * kick;
-        }
+        const row v = velocity[p];
+        position[p] += v * dt;
+        velocity[p] = v + force[p] * (dt / mass[p]);
     }
 }
 

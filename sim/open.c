@@ -238,6 +238,14 @@ enum status sim_add_scalars(struct sim *sim, uint32_t count, uint32_t *first, st
     return STATUS_OK;
 }
 
+/* Two workers that wait for each other several times a step gain nothing on a small balloon, and lose much where the machine
+ * has other things to do. */
+static unsigned useful_workers(const struct sim *sim)
+{
+    enum { POINTS_TO_SHARE = 8192 };
+    return sim->point_count < POINTS_TO_SHARE ? 1 : 0;
+}
+
 static enum status build(struct sim *sim, const struct mesh *meshes, unsigned workers, struct error *err)
 {
     enum status status = count(sim, meshes, err);
@@ -246,7 +254,7 @@ static enum status build(struct sim *sim, const struct mesh *meshes, unsigned wo
     if (!status)
         status = fill(sim, meshes, err);
     if (!status)
-        status = threads_open(&sim->pool, workers, err);
+        status = threads_open(&sim->pool, workers ? workers : useful_workers(sim), err);
     if (!status)
         status = parts_open(sim, err);
     if (!status)

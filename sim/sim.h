@@ -255,7 +255,7 @@ enum status sim_load_meshes(const struct scene *scene, struct mesh *meshes, stru
                             struct error *err);
 
 /* Builds the tables for a checked scene; meshes[i] is balloon i's, connected (common/mesh.h). `workers` threads work on a
- * step (0: as many as the machine has); the results do not depend on it. Errors: STATUS_NO_MEMORY, STATUS_RESOURCE without
+ * step (0: as many as the machine has, but one for a small balloon); the results do not depend on it. Errors: STATUS_NO_MEMORY, STATUS_RESOURCE without
  * threads, STATUS_RANGE when all balloons together have more than 2^32 - 2 edges. On failure *sim is empty. */
 enum status sim_open(struct sim *sim, const struct scene *scene, const struct mesh *meshes, unsigned workers,
                      struct error *err);
