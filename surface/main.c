@@ -4,7 +4,7 @@
 #include "common/octree.h"
 #include "common/threads.h"
 #include "render/render.h"
-#include "surface/surface.h"
+#include "surface/main_info.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -24,6 +24,8 @@ enum option_key {
     KEY_SEED,
     KEY_THREADS,
     KEY_INFO,
+    KEY_JSON,
+    KEY_FORCE,
     KEY_RENDER,
 };
 
@@ -46,7 +48,9 @@ static const struct argp_option option_list[] = {
     {"seeds", KEY_SEEDS, "HOW", 0, "Where following begins: descent (default) or random", 0},
     {"seed", KEY_SEED, "N", 0, "Of the random points (default 1)", 0},
     {"threads", KEY_THREADS, "N", 0, "Threads to work with (default: as many as there are processors)", 0},
-    {"info", KEY_INFO, NULL, 0, "Print figures about the mesh", 0},
+    {"info", KEY_INFO, NULL, 0, "Print figures about the mesh, its parts and its triangles", 0},
+    {"json", KEY_JSON, NULL, 0, "Print them as JSON", 0},
+    {"force", KEY_FORCE, NULL, 0, "Go on where memory is estimated not to hold the mesh", 0},
     {"render", KEY_RENDER, "FILE.png", 0, "Draw the mesh", 0},
     {"quiet", 'q', NULL, 0, "No notes, no progress", 0},
     {0},
@@ -54,7 +58,7 @@ static const struct argp_option option_list[] = {
 
 struct arguments {
     const char *input, *output, *render;
-    bool info, sigma_in_units;
+    bool info, json, sigma_in_units;
     struct surface_options options;
 };
 
@@ -167,6 +171,12 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     case KEY_INFO:
         arguments->info = true;
         break;
+    case KEY_JSON:
+        arguments->info = arguments->json = true;
+        break;
+    case KEY_FORCE:
+        options->force = true;
+        break;
     case KEY_RENDER:
         arguments->render = argument;
         break;
@@ -188,45 +198,30 @@ static void show_progress(void *context, double done)
     progress_update(100 * done);
 }
 
-static void print_info(const struct mesh *mesh, const struct surface_stats *stats,
-                       const struct surface_shape *shape, enum surface_seeds seeds)
+static enum status inform(struct mesh *mesh, const struct arguments *arguments, const struct octree *tree,
+                          const struct surface_stats *stats, struct error *err)
 {
-    printf("triangles        %u\n", mesh->triangle_count);
-    printf("points           %u\n", mesh->point_count);
-    printf("components       %zu\n", shape->components);
-    printf("euler            %ld\n", shape->euler);
-    printf("volume           %.9g\n", shape->volume);
-    printf("area             %.9g\n", shape->area);
-    printf("cube_size        %.9g\n", stats->cube_size);
-    printf("mean_edge        %.6g\n", shape->mean_edge);
-    printf("shortest_edge    %.4f of the mean\n", shape->shortest_edge / shape->mean_edge);
-    printf("longest_edge     %.4f of the mean\n", shape->longest_edge / shape->mean_edge);
-    printf("smallest_angle   %.2f degrees\n", shape->smallest_angle_deg);
-    printf("worst_residual   %.2e of |f - T| at a point\n", stats->worst_residual);
-    printf("evaluations      %.2f a triangle at points, %.2f on the grid\n",
-           (double)stats->evaluations / mesh->triangle_count, (double)stats->samples / mesh->triangle_count);
-    printf("memory           %.0f bytes a triangle\n", (double)stats->bytes / mesh->triangle_count);
-    if (seeds == SURFACE_RANDOM)
-        printf("seeds            %zu of %zu parts found by random points alone\n", stats->seeds_random,
-               stats->seeds);
-    else
-        printf("seeds            %zu parts found by descent\n", stats->seeds);
+    struct surface_info info = {.mesh = mesh, .options = &arguments->options, .stats = stats};
+    if (mesh_connect(mesh, err) || surface_measure(mesh, &info.shape, err) ||
+        surface_compare(tree, info.options, mesh, &info.distance, err) ||
+        surface_count(mesh, &info.shape, &info.census, err))
+        return err->status;
+    (arguments->json ? info_print_json : info_print_text)(&info);
+    surface_census_clear(&info.census);
+    return STATUS_OK;
 }
 
-static enum status report(struct mesh *mesh, const struct arguments *arguments,
-                          const struct surface_stats *stats, double finest_cell, struct error *err)
+static enum status report(struct mesh *mesh, const struct arguments *arguments, const struct octree *tree,
+                          const struct surface_stats *stats, struct error *err)
 {
-    struct surface_shape shape;
+    const double finest_cell = ldexp(1, -(int)tree->depth);
     if (arguments->output && mesh_save(mesh, arguments->output, err))
         return err->status;
     const struct render_skin skin = {.mesh = mesh, .colour = {0.75f, 0.03f, 0.04f}};
     if (arguments->render && render_still(&skin, arguments->render, "balloon-surface", err))
         return err->status;
-    if (arguments->info) {
-        if (mesh_connect(mesh, err) || surface_measure(mesh, &shape, err))
-            return err->status;
-        print_info(mesh, stats, &shape, arguments->options.seeds);
-    }
+    if (arguments->info && inform(mesh, arguments, tree, stats, err))
+        return err->status;
     const double detail = finest_cell *
                           fmax(1, 2 * arguments->options.field.sigma); /* the field has no finer */
     if (stats->cube_size > detail)
@@ -267,7 +262,7 @@ static enum status make(struct arguments *arguments, const struct octree *tree, 
     progress_end();
     if (status != STATUS_OK)
         return error_prefix(err, arguments->input);
-    status = report(&mesh, arguments, &stats, ldexp(1, -(int)tree->depth), err);
+    status = report(&mesh, arguments, tree, &stats, err);
     mesh_clear(&mesh);
     return status;
 }

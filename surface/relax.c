@@ -4,15 +4,15 @@
 #include "common/vec3.h"
 #include "surface/probe.h"
 #include "surface/relax_edges.h"
+#include "surface/relax_settle.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum {
-    BLOCK = 2048,     /* points that a worker takes at a time */
-    CURES = 6,        /* turns at what is left of narrow angles after the rounds */
-    NEWTON_TURNS = 60 /* far more than it takes, where there is a root */
+    BLOCK = 2048, /* points that a worker takes at a time */
+    CURES = 6     /* turns at what is left of narrow angles after the rounds */
 };
 
 /* Edges are kept between these lengths over the mean; the promise is 0.5 to 1.6. */
@@ -27,8 +27,9 @@ enum {
 #define STEP_MOST 0.3
 #define STILL     0.002
 
-/* Well below the 1e-9 that is promised. */
-#define RESIDUAL 1e-10
+/* How far from where it is a point may settle at the end, in mean edges: never seen to matter but for cubes larger
+ * than the sculpture's detail. */
+#define REACH 4
 
 struct relax {
     const struct relax_settings *settings;
@@ -183,31 +184,26 @@ static void take_moved(void *context, size_t block, unsigned worker)
     }
 }
 
-/* Newton's method to the end, and the normals of where it ends. */
 static void settle_points(void *context, size_t block, unsigned worker)
 {
     struct relax *x = context;
-    const double side = x->settings->field->side;
     for (uint32_t p = (uint32_t)(block * BLOCK); p < block_end(x, block); p++) {
         if (x->r.corner[p] == MESH_NONE)
             continue;
-        double *place = x->r.position[p], *normal = x->r.normal[p], excess = 0;
-        for (int turn = 0; turn < NEWTON_TURNS; turn++) {
-            double point[3] = {place[0] * side, place[1] * side, place[2] * side}, gradient[3];
-            excess = probe_value(&x->probe[worker], point, gradient) - x->settings->threshold;
-            double length = vec3_length(gradient), step = excess / (length * side);
-            if (!(length > 0))
-                break;
-            for (int axis = 0; axis < 3; axis++)
-                normal[axis] = -gradient[axis] / length;
-            if (fabs(excess) <= RESIDUAL)
-                break;
-            step = copysign(fmin(fabs(step), STEP_MOST * x->mean), step);
-            for (int axis = 0; axis < 3; axis++)
-                place[axis] += step * normal[axis];
-        }
-        x->worst[worker] = fmax(x->worst[worker], fabs(excess));
+        double residual = relax_settle(&x->probe[worker], x->settings->threshold, REACH * x->mean,
+                                       x->r.position[p], x->r.normal[p]);
+        x->worst[worker] = fmax(x->worst[worker], residual);
     }
+}
+
+static void free_rooms(struct relax *x)
+{
+    free(x->place);
+    free(x->normal);
+    free(x->keep);
+    free(x->turned);
+    x->place = x->normal = NULL;
+    x->keep = x->turned = NULL;
 }
 
 static bool make_room(struct relax *x)
@@ -215,10 +211,7 @@ static bool make_room(struct relax *x)
     uint32_t room = x->r.point_room;
     if (room <= x->room)
         return true;
-    free(x->place);
-    free(x->normal);
-    free(x->keep);
-    free(x->turned);
+    free_rooms(x);
     x->place = array_new(room, sizeof *x->place);
     x->normal = array_new(room, sizeof *x->normal);
     x->keep = array_new(room, sizeof *x->keep);
@@ -325,10 +318,7 @@ static void close_relax(struct relax *x)
     free(x->probe);
     free(x->worst);
     free(x->turned_count);
-    free(x->place);
-    free(x->normal);
-    free(x->keep);
-    free(x->turned);
+    free_rooms(x);
     remesh_clear(&x->r);
 }
 
@@ -343,6 +333,15 @@ static bool collect(const struct relax *x, struct relax_stats *stats)
     return good;
 }
 
+static size_t bytes_of(const struct relax *x)
+{
+    const struct remesh *r = &x->r;
+    size_t point = sizeof *r->position + sizeof *r->normal + sizeof *r->degree + sizeof *r->corner;
+    size_t moved = sizeof *x->place + sizeof *x->normal + sizeof *x->keep + sizeof *x->turned;
+    return r->point_room * point + x->room * moved + (r->point_room - r->first_new) * sizeof *r->beside +
+           r->triangle_room * (sizeof *r->triangle + sizeof *r->across);
+}
+
 enum status relax_mesh(struct mesh *mesh, const struct relax_settings *settings, struct relax_stats *stats,
                        struct error *err)
 {
@@ -353,6 +352,8 @@ enum status relax_mesh(struct mesh *mesh, const struct relax_settings *settings,
         status = open(&x, err);
     if (status == STATUS_OK && !(run(&x) && collect(&x, stats)))
         status = error_no_memory(err, "relaxing the mesh");
+    stats->bytes = bytes_of(&x);
+    free_rooms(&x);
     if (status == STATUS_OK)
         status = remesh_close(&x.r, mesh, err);
     close_relax(&x);

@@ -23,7 +23,7 @@ static bool installed(void)
     struct error err = {0};
     if (plot_check("a.png", &err) == STATUS_OK)
         return true;
-    print_message("skipped, nothing was drawn: %s\n", err.text);
+    print_message("# skipped, nothing was drawn: %s\n", err.text);
     return false;
 }
 
