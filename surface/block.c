@@ -17,6 +17,8 @@ void block_clear(struct block *block)
     window_clear(&block->window);
     profiles_clear(&block->profiles);
     free(block->row);
+    free(block->share);
+    free(block->beam);
     free(block->line);
     memset(block, 0, sizeof *block);
 }
@@ -77,14 +79,14 @@ bool block_move(struct block *block, const int at[3])
     return true;
 }
 
-/* The sums of one row of the window along x at all places of the block, and their slopes. */
-static void sum_row(const struct block *block, enum field_track track, size_t row, double *sum, double *slope)
+/* The sums of one row of the window along x at all places of the block, and their slopes; to number `row` of the
+ * block. */
+static void sum_row(struct block *block, enum field_track track, size_t window_row_number, size_t row)
 {
     const struct window *w = &block->window;
     int low = block->low[0], high = low + block->size[0];
-    for (int i = 0; i < BLOCK_ROW; i++)
-        sum[i] = slope[i] = 0;
-    for (uint32_t k = w->start[row]; k < w->start[row + 1]; k++) {
+    double sum[BRICK_CORNERS] = {0}, slope[BRICK_CORNERS] = {0};
+    for (uint32_t k = w->start[window_row_number]; k < w->start[window_row_number + 1]; k++) {
         const struct window_run *run = &w->run[k];
         if (run->end <= low || run->begin >= high)
             continue;
@@ -96,25 +98,38 @@ static void sum_row(const struct block *block, enum field_track track, size_t ro
             slope[i] += run->weight * (x->slope[track][end] - x->slope[track][begin]);
         }
     }
+    double *out = block->row + row;
+    for (int i = 0; i < BRICK_CORNERS; i++, out += 2 * block->rows) {
+        out[0] = sum[i];
+        out[block->rows] = slope[i];
+    }
 }
 
-/* plane[y]: what the block's rows of one plane add up to at its 9 places along y. */
-static void sum_plane(const struct block *block, enum field_track track, const double *row,
-                      double plane[BRICK_CORNERS][BLOCK_ROW])
+static void find_shares(struct block *block, enum field_track track)
 {
+    memset(block->share, 0, (size_t)(block->size[1] * BLOCK_ROW) * sizeof *block->share);
     for (int i = 0; i < BRICK_CORNERS; i++) {
         const struct profile *y = &block->profile[1][i];
         const double *sum = y->sum[track];
-        memset(plane[i], 0, sizeof plane[i]);
         for (int k = 0; k < block->size[1]; k++) {
-            int cell = block->low[1] + k;
-            if (cell < y->first || cell >= y->last)
-                continue;
-            double share = sum[cell - y->first + 1] - sum[cell - y->first];
-            const double *along = row + k * BLOCK_ROW;
-            for (int x = 0; x < BLOCK_ROW; x++)
-                plane[i][x] += share * along[x];
+            int plane = block->low[1] + k - y->first;
+            if (plane >= 0 && plane < y->last - y->first)
+                block->share[k * BLOCK_ROW + i] = sum[plane + 1] - sum[plane];
         }
+    }
+}
+
+/* plane[y]: what the block's rows of one plane, from number `row` on, add up to at its 9 places along y. */
+static void sum_plane(const struct block *block, size_t row, double plane[BRICK_CORNERS][BLOCK_ROW])
+{
+    for (int x = 0; x < BRICK_CORNERS; x++) {
+        const double *along = block->row + (size_t)x * 2 * block->rows + row;
+        double total[BLOCK_ROW] = {0};
+        for (int k = 0; k < block->size[1]; k++)
+            for (int y = 0; y < BLOCK_ROW; y++)
+                total[y] += block->share[k * BLOCK_ROW + y] * along[k];
+        for (int y = 0; y < BRICK_CORNERS; y++)
+            plane[y][x] = total[y];
     }
 }
 
@@ -139,7 +154,9 @@ static bool make_rooms(struct block *block)
     int longest = 0;
     for (int axis = 0; axis < 3; axis++)
         longest = block->size[axis] > longest ? block->size[axis] : longest;
-    return make_room(&block->row, 2 * block->rows * BLOCK_ROW, &block->row_room) &&
+    return make_room(&block->row, 2 * block->rows * BRICK_CORNERS, &block->row_room) &&
+           make_room(&block->share, (size_t)(block->size[1] * BLOCK_ROW), &block->share_room) &&
+           make_room(&block->beam, 2 * BRICK_CORNERS * block_beam(block), &block->beam_room) &&
            make_room(&block->line, (size_t)(FIELD_LAYERS * 3 * longest), &block->line_room);
 }
 
@@ -150,19 +167,22 @@ bool block_sample(struct block *block)
     if (!make_rooms(block))
         return false;
     memset(block->values, 0, sizeof block->values);
-    double *row = block->row, plane[BRICK_CORNERS][BLOCK_ROW];
-    for (int layer = 0; layer < field->layers; layer++)
+    block->beams = 0;
+    double plane[BRICK_CORNERS][BLOCK_ROW];
+    size_t row = 0;
+    for (int layer = 0; layer < field->layers; layer++) {
+        const enum field_track *track = field->layer[layer].track;
+        find_shares(block, track[1]);
         for (int z = 0; z < block->size[2]; z++) {
-            const enum field_track *track = field->layer[layer].track;
-            const double *first = row;
-            size_t begin = window_row(w, layer, block->low[1], block->low[2] + z);
-            for (int y = 0; y < block->size[1]; y++, row += BLOCK_ROW)
-                sum_row(block, track[0], begin + (size_t)y, row, row + block->rows * BLOCK_ROW);
+            size_t first = row, begin = window_row(w, layer, block->low[1], block->low[2] + z);
+            for (int y = 0; y < block->size[1]; y++)
+                sum_row(block, track[0], begin + (size_t)y, row++);
             if (w->start[begin] == w->start[begin + (size_t)block->size[1]])
                 continue;
-            sum_plane(block, track[1], first, plane);
+            sum_plane(block, first, plane);
             add_plane(block, track[2], block->low[2] + z, plane);
         }
+    }
     return true;
 }
 

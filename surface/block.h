@@ -33,12 +33,23 @@ struct block {
     int window_at[3], window_bricks; /* the first of these bricks, in bricks; how many along an axis, or 0 */
     struct profile profile[3][BRICK_CORNERS]; /* of the block's lines */
     int low[3], size[3];                      /* the cells, and planes, of the window that reach the block */
-    double *row;  /* [2][layer][size[2]][size[1]][BLOCK_ROW] sums along x, their slopes */
-    double *line; /* [layer][3][longest of size] */
-    size_t rows, row_room, line_room;
+    double
+        *row; /* [BRICK_CORNERS][2][layer][size[2]][size[1]] by place along x: sums of rows, their slopes */
+    double *share; /* [size[1]][BLOCK_ROW] of a layer: by place along y, the sums of cells */
+    double *line;  /* [layer][3][longest of size] */
+    double *
+        beam; /* [BRICK_CORNERS][2][layer][size[1]][size[0]] by place along z: sums of cells along z, their slopes */
+    unsigned beams; /* bit i: those of place i are known */
+    size_t rows, row_room, share_room, line_room, beam_room;
     struct profiles profiles;    /* of the point or edge at hand */
     double values[BLOCK_VALUES]; /* x fastest */
 };
+
+/* How many cells there are along x and y, of all layers. */
+static inline size_t block_beam(const struct block *block)
+{
+    return (size_t)block->grid->field->layers * (size_t)block->size[1] * (size_t)block->size[0];
+}
 
 /* False when there is no memory. */
 bool block_init(struct block *block, const struct grid *grid);

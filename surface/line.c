@@ -29,12 +29,12 @@ static void sum_along_z(const struct block *block, const int at[3], int layer, d
     const struct profile *y = &block->profile[1][at[1]];
     enum field_track track = block->grid->field->layer[layer].track[1];
     struct band band = band_of(block, y, 1);
-    size_t size = (size_t)block->size[2], width = (size_t)block->size[1], slopes = block->rows * BLOCK_ROW;
+    size_t size = (size_t)block->size[2], width = (size_t)block->size[1], slopes = block->rows;
     for (int j = band.first; j < band.end; j++) {
         double share = step(y->sum[track], y, j), slope = step(y->slope[track], y, j);
         size_t first = (size_t)layer * size * width + (size_t)(j - block->low[1]);
-        const double *row = block->row + first * BLOCK_ROW + at[0];
-        for (size_t k = 0; k < size; k++, row += width * BLOCK_ROW) {
+        const double *row = block->row + (size_t)at[0] * 2 * slopes + first;
+        for (size_t k = 0; k < size; k++, row += width) {
             out[k] += share * *row;
             out[size + k] += share * row[slopes];
             out[2 * size + k] += slope * *row;
@@ -48,21 +48,22 @@ static void sum_along_y(const struct block *block, const int at[3], int layer, d
     const struct profile *z = &block->profile[2][at[2]];
     enum field_track track = block->grid->field->layer[layer].track[2];
     struct band band = band_of(block, z, 2);
-    size_t size = (size_t)block->size[1], slopes = block->rows * BLOCK_ROW;
+    size_t size = (size_t)block->size[1], slopes = block->rows;
     for (int k = band.first; k < band.end; k++) {
         double share = step(z->sum[track], z, k), slope = step(z->slope[track], z, k);
         size_t first = (size_t)(layer * block->size[2] + k - block->low[2]) * size;
-        const double *row = block->row + first * BLOCK_ROW + at[0];
-        for (size_t j = 0; j < size; j++, row += BLOCK_ROW) {
-            out[j] += share * *row;
-            out[size + j] += slope * *row;
-            out[2 * size + j] += share * row[slopes];
+        const double *row = block->row + (size_t)at[0] * 2 * slopes + first;
+        for (size_t j = 0; j < size; j++) {
+            out[j] += share * row[j];
+            out[size + j] += slope * row[j];
+            out[2 * size + j] += share * row[slopes + j];
         }
     }
 }
 
-/* Adds a row's runs, times `share`, as what changes at their ends. */
-static void add_row(const struct block *block, size_t row, const double share[3], double *out)
+/* Adds a row's runs, times a share and its slope, as what changes at their ends. */
+static void add_row(const struct block *block, size_t row, double share, double slope, double *sum,
+                    double *slopes)
 {
     const struct window *w = &block->window;
     int size = block->size[0];
@@ -70,32 +71,61 @@ static void add_row(const struct block *block, size_t row, const double share[3]
         const struct window_run *run = &w->run[i];
         int begin = run->begin - block->low[0], end = run->end - block->low[0];
         begin = begin < 0 ? 0 : begin;
-        for (int k = 0; k < 3 && begin < size && end > 0; k++) {
-            out[k * size + begin] += share[k] * run->weight;
-            if (end < size)
-                out[k * size + end] -= share[k] * run->weight;
+        if (begin >= size || end <= 0)
+            continue;
+        sum[begin] += share * run->weight;
+        slopes[begin] += slope * run->weight;
+        if (end < size) {
+            sum[end] -= share * run->weight;
+            slopes[end] -= slope * run->weight;
         }
     }
 }
 
-/* Along x: whole rows are added up, as changes from cell to cell first. */
-static void sum_along_x(const struct block *block, const int at[3], int layer, double *out)
+/* Whole rows added up along z at one place of it: as changes from cell to cell along x first. All edges along x at
+ * that place share this. */
+static void fill_beam(struct block *block, int place, double *sum, double *slopes)
 {
-    const struct profile *y = &block->profile[1][at[1]], *z = &block->profile[2][at[2]];
-    const enum field_track *track = block->grid->field->layer[layer].track;
-    struct band along_y = band_of(block, y, 1), along_z = band_of(block, z, 2);
-    for (int k = along_z.first; k < along_z.end; k++) {
-        double share_z = step(z->sum[track[2]], z, k), slope_z = step(z->slope[track[2]], z, k);
-        size_t row = window_row(&block->window, layer, along_y.first, k);
-        for (int j = along_y.first; j < along_y.end; j++, row++) {
-            double share_y = step(y->sum[track[1]], y, j), slope_y = step(y->slope[track[1]], y, j);
-            double share[3] = {share_z * share_y, share_z * slope_y, slope_z * share_y};
-            add_row(block, row, share, out);
+    const struct profile *z = &block->profile[2][place];
+    struct band band = band_of(block, z, 2);
+    size_t size = (size_t)block->size[0], beam = block_beam(block), first = 0;
+    memset(sum, 0, 2 * beam * sizeof *sum);
+    for (int layer = 0; layer < block->grid->field->layers; layer++, first += size * (size_t)block->size[1]) {
+        enum field_track track = block->grid->field->layer[layer].track[2];
+        for (int k = band.first; k < band.end; k++) {
+            double share = step(z->sum[track], z, k), slope = step(z->slope[track], z, k);
+            size_t row = window_row(&block->window, layer, block->low[1], k);
+            for (size_t j = 0; j < (size_t)block->size[1]; j++)
+                add_row(block, row + j, share, slope, sum + first + j * size, slopes + first + j * size);
         }
     }
-    for (int k = 0; k < 3; k++, out += block->size[0])
-        for (int i = 1; i < block->size[0]; i++)
-            out[i] += out[i - 1];
+    for (size_t i = 1; i < beam; i++)
+        if (i % size) {
+            sum[i] += sum[i - 1];
+            slopes[i] += slopes[i - 1];
+        }
+    block->beams |= 1u << place;
+}
+
+/* Along x: beams are added up along y. */
+static void sum_along_x(struct block *block, const int at[3], int layer, double *out)
+{
+    const struct profile *y = &block->profile[1][at[1]];
+    enum field_track track = block->grid->field->layer[layer].track[1];
+    struct band band = band_of(block, y, 1);
+    size_t size = (size_t)block->size[0], beam = block_beam(block);
+    double *sum = block->beam + (size_t)at[2] * 2 * beam;
+    if (!(block->beams >> at[2] & 1))
+        fill_beam(block, at[2], sum, sum + beam);
+    for (int j = band.first; j < band.end; j++) {
+        double share = step(y->sum[track], y, j), slope = step(y->slope[track], y, j);
+        const double *row = sum + ((size_t)(layer * block->size[1] + j - block->low[1])) * size;
+        for (size_t i = 0; i < size; i++) {
+            out[i] += share * row[i];
+            out[size + i] += slope * row[i];
+            out[2 * size + i] += share * row[beam + i];
+        }
+    }
 }
 
 struct line block_line(struct block *block, int axis, const int at[3])
