@@ -26,7 +26,7 @@ void block_clear(struct block *block)
 /* Room for `count` doubles, whose old values are not kept. */
 static bool make_room(double **items, size_t count, size_t *room)
 {
-    if (count <= *room)
+    if (*items && count <= *room)
         return true;
     free(*items);
     *items = array_new(count, sizeof **items);
