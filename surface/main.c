@@ -2,8 +2,10 @@
 #include "common/command.h"
 #include "common/file.h"
 #include "common/octree.h"
+#include "common/plot.h"
 #include "common/threads.h"
 #include "render/render.h"
+#include "surface/main_cost.h"
 #include "surface/main_info.h"
 
 #include <math.h>
@@ -27,6 +29,7 @@ enum option_key {
     KEY_JSON,
     KEY_FORCE,
     KEY_RENDER,
+    KEY_COST,
 };
 
 static const struct argp_option option_list[] = {
@@ -52,12 +55,16 @@ static const struct argp_option option_list[] = {
     {"json", KEY_JSON, NULL, 0, "Print them as JSON", 0},
     {"force", KEY_FORCE, NULL, 0, "Go on where memory is estimated not to hold the mesh", 0},
     {"render", KEY_RENDER, "FILE.png", 0, "Draw the mesh", 0},
+    {"accuracy-cost", KEY_COST, "FILE", 0,
+     "Walk each dial through a ladder on this sculpture and print what accuracy costs: the table in FILE.tsv, "
+     "or drawn in FILE.png or .svg",
+     0},
     {"quiet", 'q', NULL, 0, "No notes, no progress", 0},
     {0},
 };
 
 struct arguments {
-    const char *input, *output, *render;
+    const char *input, *output, *render, *cost;
     bool info, json, sigma_in_units;
     struct surface_options options;
 };
@@ -110,8 +117,11 @@ static void check_arguments(const struct arguments *arguments, struct argp_state
     const struct surface_options *options = &arguments->options;
     if (!arguments->input)
         argp_error(state, "which sculpture? balloon-surface FILE.oct -o FILE.ply");
-    if (!arguments->output && !arguments->info && !arguments->render)
-        argp_error(state, "nothing to do: give -o FILE.ply, --info or --render FILE.png");
+    if (!arguments->output && !arguments->info && !arguments->render && !arguments->cost)
+        argp_error(state,
+                   "nothing to do: give -o FILE.ply, --info, --render FILE.png or --accuracy-cost FILE.tsv");
+    if (arguments->cost && !file_has_extension(arguments->cost, "tsv") && !plot_is_file_name(arguments->cost))
+        argp_error(state, "--accuracy-cost %s: the name must end in .tsv, .png or .svg", arguments->cost);
     if (arguments->output && !file_has_extension(arguments->output, "ply") &&
         !file_has_extension(arguments->output, "stl") && !file_has_extension(arguments->output, "obj"))
         argp_error(state, "-o %s: the name must end in .ply, .stl or .obj", arguments->output);
@@ -177,6 +187,9 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     case KEY_FORCE:
         options->force = true;
         break;
+    case KEY_COST:
+        arguments->cost = argument;
+        break;
     case KEY_RENDER:
         arguments->render = argument;
         break;
@@ -238,12 +251,25 @@ static enum status report(struct mesh *mesh, const struct arguments *arguments, 
 
 static enum status check_files(const struct arguments *arguments, struct error *err)
 {
-    const char *targets[] = {arguments->output, arguments->render};
-    for (int i = 0; i < 2; i++)
+    const char *targets[] = {arguments->output, arguments->render, arguments->cost};
+    for (int i = 0; i < 3; i++)
         if (targets[i] && file_same(targets[i], arguments->input))
             return error_set(err, STATUS_FILE, "%s: is the sculpture itself; write to another file",
                              targets[i]);
     return STATUS_OK;
+}
+
+/* Where gnuplot is missing the table is still printed, and the failure told at the end. */
+static enum status price(const struct arguments *arguments, const struct octree *tree, struct error *err)
+{
+    struct cost_table table;
+    progress_begin("pricing", "%", 100);
+    enum status status = surface_cost(tree, &arguments->options, &table, err);
+    progress_end();
+    if (status != STATUS_OK)
+        return error_prefix(err, arguments->input);
+    cost_print(&table, stdout);
+    return cost_save(&table, arguments->input, arguments->cost, err);
 }
 
 static enum status make(struct arguments *arguments, const struct octree *tree, struct error *err)
@@ -257,6 +283,10 @@ static enum status make(struct arguments *arguments, const struct octree *tree, 
                              arguments->options.field.sigma / (1 << tree->depth), 1.0 / (1 << tree->depth),
                              0.01 / (1 << tree->depth));
     }
+    if (arguments->cost && price(arguments, tree, err))
+        return err->status;
+    if (!arguments->output && !arguments->info && !arguments->render)
+        return STATUS_OK;
     progress_begin("meshing", "%", 100);
     enum status status = surface_make(tree, &arguments->options, &mesh, &stats, err);
     progress_end();

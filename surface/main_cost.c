@@ -1,0 +1,95 @@
+#include "surface/main_cost.h"
+
+#include "common/file.h"
+#include "common/plot.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void print_advice(const struct cost_table *table, FILE *stream)
+{
+    for (double error = 1e-2; error > 5e-5; error /= 10) {
+        fprintf(stream, "# for errors of %g:", error);
+        for (int dial = 0; dial < COST_RELAX; dial++) {
+            char setting[32];
+            if (cost_recommend(table, (enum cost_dial)dial, error, setting))
+                fprintf(stream, " --%s %s", cost_dial_names[dial], setting);
+        }
+        fputc('\n', stream);
+    }
+}
+
+void cost_print(const struct cost_table *table, FILE *stream)
+{
+    fprintf(stream,
+            "dial\tsetting\tseconds\tevaluations\tbytes\trms_error\tmax_error\tarea_error\tvolume_error\n");
+    for (size_t i = 0; i < table->count; i++) {
+        const struct cost_row *row = &table->rows[i];
+        fprintf(stream, "%s\t%s\t%.4g\t%llu\t%zu\t%.3e\t%.3e\t%.3e\t%.3e\n", cost_dial_names[row->dial],
+                row->setting, row->seconds, (unsigned long long)row->evaluations, row->bytes, row->rms,
+                row->largest, row->area, row->volume);
+    }
+    fprintf(stream,
+            "# errors are shares of the sculpture's longest extent, %.4g, of its area and of its volume\n",
+            table->extent);
+    double order = table->order[COST_CUBE_SIZE];
+    fprintf(stream, "# order in the cube size: %.2f%s\n", order,
+            order > 1.8 ? ""
+                        : " (2 in the limit: the coarse cubes do not resolve the sculpture's detail yet)");
+    fprintf(stream,
+            "# order in the fields' spacing: %.2f; cut-off: faster than any power; relaxation: none\n",
+            table->order[COST_FIELDS]);
+    print_advice(table, stream);
+}
+
+static enum status save_table(const struct cost_table *table, const char *path, struct error *err)
+{
+    struct file_out *out;
+    if (file_out_open(path, &out, err))
+        return err->status;
+    cost_print(table, file_out_stream(out));
+    return file_out_commit(out, err);
+}
+
+static enum status draw(const struct cost_table *table, const char *sculpture, const char *path,
+                        struct error *err)
+{
+    static double error[2][COST_ROWS_MAX], seconds[COST_ROWS_MAX];
+    static const char *label[COST_ROWS_MAX];
+    struct plot_series series[2][COST_DIALS];
+    size_t row = 0;
+    for (int dial = 0; dial < COST_DIALS; dial++) {
+        size_t first = row;
+        for (; row < table->count && table->rows[row].dial == (enum cost_dial)dial; row++) {
+            error[0][row] = table->rows[row].rms;
+            error[1][row] = table->rows[row].volume;
+            seconds[row] = table->rows[row].seconds;
+            /* Cube sizes stand close: every other one is named. */
+            label[row] = dial == COST_CUBE_SIZE && row % 2 ? "" : table->rows[row].setting;
+        }
+        for (int i = 0; i < 2; i++)
+            series[i][dial] = (struct plot_series){cost_dial_names[dial], PLOT_CURVE,    &error[i][first],
+                                                   &seconds[first],       &label[first], row - first};
+    }
+    const struct plot_panel panels[] = {
+        {"distance from the surface", "RMS error, share of the extent", "seconds", true, true, series[0],
+         COST_DIALS},
+        {"volume", "relative error", "seconds", true, true, series[1], COST_DIALS}};
+    const struct plot plot = {sculpture, panels, 2, 2};
+    return plot_save(&plot, path, err);
+}
+
+enum status cost_save(const struct cost_table *table, const char *sculpture, const char *path,
+                      struct error *err)
+{
+    if (file_has_extension(path, "tsv"))
+        return save_table(table, path, err);
+    char *beside = strdup(path);
+    if (!beside)
+        return error_no_memory(err, path);
+    memcpy(beside + strlen(beside) - 3, "tsv", 3);
+    enum status status = save_table(table, beside, err);
+    free(beside);
+    return status == STATUS_OK ? draw(table, sculpture, path, err) : status;
+}
