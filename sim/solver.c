@@ -1,23 +1,43 @@
 #include "sim/solver.h"
+#include "common/threads.h"
 #include "sim/jacobian.h"
+#include "sim/jacobian_kernels.h"
 #include "sim/vectors.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { RESIDUAL, SHADOW, DIRECTION, MAPPED_DIRECTION, MAPPED_RESIDUAL, PRODUCT };
+enum { RESIDUAL, SHADOW, DIRECTION, MAPPED_DIRECTION, MAPPED_RESIDUAL, SCRATCH };
+
+/* The first edge of each group: edges are in the order of their lower points. */
+static void find_groups(const struct sim *sim, struct solver *solver)
+{
+    uint32_t e = 0;
+    for (size_t g = 0; g < solver->group_count; g++) {
+        while (e < sim->edge_count && sim->edge_point[e][0] < g * SOLVER_GROUP)
+            e++;
+        solver->group_edge[g] = e;
+    }
+}
 
 enum status solver_open(struct sim *sim, struct solver *solver, struct error *err)
 {
-    bool room = (solver->inverse = sim_table(sim, sim->point_count, sizeof *solver->inverse)) != NULL;
+    solver->group_count = sim->point_count / SOLVER_GROUP + 1;
+    solver->group_edge = sim_table(sim, solver->group_count, sizeof *solver->group_edge);
+    solver->inverse = sim_table(sim, sim->point_count, sizeof *solver->inverse);
+    bool room = solver->group_edge && solver->inverse;
     for (int i = 0; i < SOLVER_ROWS; i++)
         room &= (solver->rows[i] = sim_table(sim, sim->point_count, sizeof *solver->rows[i])) != NULL;
-    return room ? STATUS_OK : error_no_memory(err, "the linear solver");
+    if (!room)
+        return error_no_memory(err, "the linear solver");
+    find_groups(sim, solver);
+    return STATUS_OK;
 }
 
 void solver_close(struct solver *solver)
 {
+    free(solver->group_edge);
     free(solver->inverse);
     for (int i = 0; i < SOLVER_ROWS; i++)
         free(solver->rows[i]);
@@ -41,11 +61,66 @@ static void invert(double block[3][4], double mass)
             block[i][j] = regular ? c[i][j] / det : (i == j) / mass;
 }
 
-static void invert_part(struct sim *sim, const struct sim_part *part, void *context)
+struct group_job {
+    struct sim *sim;
+    struct solver *solver;
+    double (*x)[4], (*y)[4];
+};
+
+/* Edges as the preconditioner sees them: y += B x, where -B is the system's block between an edge's ends, either way, without
+ * pressure's share. */
+static inline void add_coupling(const struct solver *s, const double edge[8], const double x[4], double y[4])
 {
-    struct solver *solver = context;
-    for (uint32_t p = part->point_begin; p < part->point_end; p++)
-        invert(solver->inverse[p], sim->mass[p]);
+    const double *u = edge, *g = edge + 4, t = s->a * edge[3];
+    const double along = s->a * (g[0] * x[0] + g[1] * x[1] + g[2] * x[2]) +
+                         s->b * g[3] * (u[0] * x[0] + u[1] * x[1] + u[2] * x[2]);
+    for (int i = 0; i < 3; i++)
+        y[i] += along * u[i] + t * x[i];
+}
+
+static inline void multiply(const double block[3][4], const double x[4], double y[4])
+{
+    for (int i = 0; i < 3; i++)
+        y[i] = block[i][0] * x[0] + block[i][1] * x[1] + block[i][2] * x[2];
+}
+
+/* What eliminating an edge's lower point does to the block of the upper one: block -= B inverse B, column by column. */
+static void eliminate(const struct solver *s, const double edge[8], const double inverse[3][4],
+                      double block[3][4])
+{
+    for (int j = 0; j < 3; j++) {
+        double unit[4] = {0}, column[4] = {0}, solved[4], change[4] = {0};
+        unit[j] = 1;
+        add_coupling(s, edge, unit, column);
+        multiply(inverse, column, solved);
+        add_coupling(s, edge, solved, change);
+        for (int i = 0; i < 3; i++)
+            block[i][j] -= change[i];
+    }
+}
+
+static uint32_t group_end(const struct sim *sim, size_t group)
+{
+    const uint64_t end = (uint64_t)(group + 1) * SOLVER_GROUP;
+    return end < sim->point_count ? (uint32_t)end : sim->point_count;
+}
+
+static void factor_group(void *context, size_t group, unsigned worker)
+{
+    (void)worker;
+    const struct group_job *job = context;
+    const struct sim *sim = job->sim;
+    double(*block)[3][4] = job->solver->inverse;
+    const uint32_t end = group_end(sim, group);
+    uint32_t e = job->solver->group_edge[group];
+    for (uint32_t p = (uint32_t)group * SOLVER_GROUP; p < end; p++) {
+        invert(block[p], sim->mass[p]);
+        for (; e < sim->edge_count && sim->edge_point[e][0] == p; e++) {
+            const uint32_t q = sim->edge_point[e][1];
+            if (q < end && sim->edge_active[e])
+                eliminate(job->solver, sim->jacobian->edge[e], (const double(*)[4])block[p], block[q]);
+        }
+    }
 }
 
 void solver_prepare(struct sim *sim, struct solver *solver, double a, double b)
@@ -53,87 +128,89 @@ void solver_prepare(struct sim *sim, struct solver *solver, double a, double b)
     solver->a = a;
     solver->b = b;
     sim_diagonal_blocks(sim, a, b, solver->inverse);
-    sim_each_part(sim, invert_part, solver);
+    threads_run(sim->pool, solver->group_count, factor_group, &(struct group_job){sim, solver, NULL, NULL});
 }
 
-static inline void precondition(const struct solver *solver, uint32_t p, const double x[4], double y[4])
+/* y = P x, on one group: down through the points as they are numbered, and up again. */
+static void precondition_group(void *context, size_t group, unsigned worker)
 {
-    const double(*block)[4] = (const double(*)[4])solver->inverse[p];
-    for (int i = 0; i < 3; i++)
-        y[i] = block[i][0] * x[0] + block[i][1] * x[1] + block[i][2] * x[2];
-    y[3] = 0;
-}
-
-struct operation {
-    const struct solver *solver;
-    double (*x)[4], (*y)[4], (*with)[4];
-    double alpha, beta;
-};
-
-static double dot(const double a[4], const double b[4])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/* y = P x; the sum of y . with. */
-static double precondition_block(const struct sim *sim, uint32_t begin, uint32_t end, void *context)
-{
-    (void)sim;
-    const struct operation o = *(struct operation *)context;
-    double sum = 0;
+    (void)worker;
+    const struct group_job *job = context;
+    const struct sim *sim = job->sim;
+    const double(*inverse)[3][4] = (const double(*)[3][4])job->solver->inverse;
+    double(*y)[4] = job->y;
+    const uint32_t begin = (uint32_t)group * SOLVER_GROUP, end = group_end(sim, group);
+    uint32_t e = job->solver->group_edge[group];
+    for (uint32_t p = begin; p < end; p++)
+        memcpy(y[p], job->x[p], sizeof y[p]);
     for (uint32_t p = begin; p < end; p++) {
-        precondition(o.solver, p, o.x[p], o.y[p]);
-        sum += dot(o.y[p], o.with[p]);
+        const double sum[4] = {y[p][0], y[p][1], y[p][2]};
+        multiply(inverse[p], sum, y[p]);
+        for (; e < sim->edge_count && sim->edge_point[e][0] == p; e++)
+            if (sim->edge_point[e][1] < end)
+                add_coupling(job->solver, sim->jacobian->edge[e], y[p], y[sim->edge_point[e][1]]);
     }
-    return sum;
+    for (uint32_t p = end; p-- > begin;) {
+        double sum[4] = {0}, change[4];
+        while (e > 0 && sim->edge_point[e - 1][0] == p)
+            if (sim->edge_point[--e][1] < end)
+                add_coupling(job->solver, sim->jacobian->edge[e], y[sim->edge_point[e][1]], sum);
+        multiply(inverse[p], sum, change);
+        for (int i = 0; i < 3; i++)
+            y[p][i] += change[i];
+    }
 }
 
-/* y = P (M x - y), y being (a K + b D) x; the sum of y . with. */
-static double finish_block(const struct sim *sim, uint32_t begin, uint32_t end, void *context)
+void solver_precondition(struct sim *sim, struct solver *solver, double (*x)[4], double (*y)[4])
 {
-    const struct operation o = *(struct operation *)context;
-    double sum = 0;
-    for (uint32_t p = begin; p < end; p++) {
-        double mapped[4];
+    threads_run(sim->pool, solver->group_count, precondition_group, &(struct group_job){sim, solver, x, y});
+}
+
+static void finish_part(struct sim *sim, const struct sim_part *part, void *context)
+{
+    const struct group_job *job = context;
+    for (uint32_t p = part->point_begin; p < part->point_end; p++)
         for (int i = 0; i < 4; i++)
-            mapped[i] = sim->mass[p] * o.x[p][i] - o.y[p][i];
-        precondition(o.solver, p, mapped, o.y[p]);
-        sum += dot(o.y[p], o.with[p]);
-    }
-    return sum;
+            job->y[p][i] = sim->mass[p] * job->x[p][i] - job->y[p][i];
 }
 
-/* y = P (M - a K - b D) x; returns y . with. */
-static double apply(struct sim *sim, struct solver *s, double (*x)[4], double (*y)[4], double (*with)[4])
+/* y = P (M - a K - b D) x. */
+static void apply(struct sim *sim, struct solver *solver, double (*x)[4], double (*y)[4])
 {
-    sim_force_product(sim, s->a, x, s->b, x, y);
-    return vector_sum(sim, finish_block, &(struct operation){.solver = s, .x = x, .y = y, .with = with});
+    sim_force_product(sim, solver->a, x, solver->b, x, y);
+    sim_each_part(sim, finish_part, &(struct group_job){sim, solver, x, y});
+    solver_precondition(sim, solver, y, y);
 }
+
+struct addition {
+    double (*y)[4], (*x)[4];
+    double alpha;
+};
 
 /* y += alpha x; the sum of y . y. */
 static double add_block(const struct sim *sim, uint32_t begin, uint32_t end, void *context)
 {
     (void)sim;
-    const struct operation o = *(struct operation *)context;
-    double sum = 0;
-    for (uint32_t p = begin; p < end; p++) {
-        for (int i = 0; i < 4; i++)
+    const struct addition o = *(struct addition *)context;
+    double sum[4] = {0};
+    for (uint32_t p = begin; p < end; p++)
+        for (int i = 0; i < 4; i++) {
             o.y[p][i] += o.alpha * o.x[p][i];
-        sum += dot(o.y[p], o.y[p]);
-    }
-    return sum;
+            sum[i] += o.y[p][i] * o.y[p][i];
+        }
+    return sum[0] + sum[1] + sum[2];
 }
 
 static double add(struct sim *sim, double (*y)[4], double alpha, double (*x)[4])
 {
-    return vector_sum(sim, add_block, &(struct operation){.x = x, .y = y, .alpha = alpha});
+    return vector_sum(sim, add_block, &(struct addition){y, x, alpha});
 }
 
 double solver_size(struct sim *sim, struct solver *solver, double (*x)[4])
 {
-    struct operation o = {
-        .solver = solver, .x = x, .y = solver->rows[PRODUCT], .with = solver->rows[PRODUCT]};
-    return sqrt(vector_sum(sim, precondition_block, &o) / sim->point_count);
+    double(*y)[4] = solver->rows[SCRATCH];
+    solver_precondition(sim, solver, x, y);
+    return sqrt(vector_dot(sim, y, y) / sim->point_count);
 }
 
 /* One iteration: a step along the direction, and one that makes the residual least along its own image. rho is the residual
@@ -141,9 +218,11 @@ double solver_size(struct sim *sim, struct solver *solver, double (*x)[4])
 static double iterate(struct sim *sim, struct solver *solver, double (*x)[4], double *rho)
 {
     double(**row)[4] = solver->rows;
-    const double alpha = *rho / apply(sim, solver, row[DIRECTION], row[MAPPED_DIRECTION], row[SHADOW]);
+    apply(sim, solver, row[DIRECTION], row[MAPPED_DIRECTION]);
+    const double alpha = *rho / vector_dot(sim, row[MAPPED_DIRECTION], row[SHADOW]);
     add(sim, row[RESIDUAL], -alpha, row[MAPPED_DIRECTION]);
-    const double along = apply(sim, solver, row[RESIDUAL], row[MAPPED_RESIDUAL], row[RESIDUAL]);
+    apply(sim, solver, row[RESIDUAL], row[MAPPED_RESIDUAL]);
+    const double along = vector_dot(sim, row[MAPPED_RESIDUAL], row[RESIDUAL]);
     const double squares = vector_dot(sim, row[MAPPED_RESIDUAL], row[MAPPED_RESIDUAL]);
     const double omega = squares > 0 ? along / squares : 0;
     vector_combine(sim, x, x, (struct vector_term[]){{alpha, row[DIRECTION]}, {omega, row[RESIDUAL]}}, 2);
@@ -162,8 +241,8 @@ static double iterate(struct sim *sim, struct solver *solver, double (*x)[4], do
 bool solver_solve(struct sim *sim, struct solver *solver, double (*rhs)[4], double (*x)[4], double tolerance)
 {
     double(**row)[4] = solver->rows;
-    struct operation start = {.solver = solver, .x = rhs, .y = row[RESIDUAL], .with = row[RESIDUAL]};
-    double rho = vector_sum(sim, precondition_block, &start), left = rho;
+    solver_precondition(sim, solver, rhs, row[RESIDUAL]);
+    double rho = vector_dot(sim, row[RESIDUAL], row[RESIDUAL]), left = rho;
     const double enough = tolerance * tolerance * rho;
     vector_combine(sim, x, NULL, NULL, 0);
     vector_copy(sim, row[SHADOW], row[RESIDUAL]);

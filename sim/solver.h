@@ -1,8 +1,11 @@
 /*
  * Solves (M - a K - b D) x = rhs, M the masses, K and D the derivatives of the forces (jacobian.h): the linear system of
  * every implicit method. K is not symmetric where there is pressure, nor where dampers turn: so BiCGSTAB (van der Vorst,
- * SIAM J. Sci. Stat. Comput. 13 (1992) 631), which keeps six vectors whatever it takes, preconditioned by the inverses of the
- * 3x3 blocks on the diagonal. Equal to the bit for any number of threads.
+ * SIAM J. Sci. Stat. Comput. 13 (1992) 631), which keeps six vectors whatever it takes, preconditioned by an incomplete
+ * factorisation (D + L) D^-1 (D + U): L and U the 3x3 blocks of the system's springs and dampers off the diagonal, below and
+ * above, D such that the product has the system's diagonal (DILU: Pommerell, 1992). What one stiff spring does to its two
+ * points is in it to the full. Points are taken in groups of SOLVER_GROUP, as if nothing went between two groups: these are what
+ * threads share out. Equal to the bit for any number of threads.
  *
  *     struct solver solver = {0};
  *     if (solver_open(sim, &solver, err)) ...              with sim_jacobian_open()
@@ -16,10 +19,12 @@
 
 #include "sim/sim.h"
 
-enum { SOLVER_ROWS = 6, SOLVER_ITERATIONS_MAX = 400 };
+enum { SOLVER_ROWS = 6, SOLVER_ITERATIONS_MAX = 400, SOLVER_GROUP = 2048 };
 
 struct solver {
-    double (*inverse)[3][4];        /* [point_count] of the diagonal blocks */
+    double (*inverse)[3][4]; /* [point_count] of the blocks of D */
+    uint32_t *group_edge;    /* [group_count] the first edge of each */
+    size_t group_count;
     double (*rows[SOLVER_ROWS])[4]; /* [point_count] */
     double a, b;
     uint64_t iterations; /* since it was opened, each two products */
@@ -35,6 +40,9 @@ void solver_prepare(struct sim *sim, struct solver *solver, double a, double b);
  * preconditioner (so that it is in the units of x, and a heavy point counts like a light one), is at most tolerance times
  * that of x = 0. False: it is not, after SOLVER_ITERATIONS_MAX iterations or a breakdown, and x is no use. */
 bool solver_solve(struct sim *sim, struct solver *solver, double (*rhs)[4], double (*x)[4], double tolerance);
+
+/* y = P x: a rough solution y for the right-hand side x, which may be the same rows. */
+void solver_precondition(struct sim *sim, struct solver *solver, double (*x)[4], double (*y)[4]);
 
 /* RMS over all points of what the preconditioner makes of x: about the solution's size for the right-hand side x. */
 double solver_size(struct sim *sim, struct solver *solver, double (*x)[4]);
