@@ -14,6 +14,8 @@ const struct integrator *const integrators[] = {
     &integrator_implicit_midpoint,
     &integrator_bdf2,
     &integrator_xpbd,
+    &integrator_cvode_adams,
+    &integrator_cvode_bdf,
     NULL,
 };
 
