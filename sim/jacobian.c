@@ -76,6 +76,7 @@ static void product_part(struct sim *sim, const struct sim_part *part, void *con
 
 void sim_force_product(struct sim *sim, double a, double (*dx)[4], double b, double (*dv)[4], double (*df)[4])
 {
+    sim->products++;
     sim_each_part(sim, product_part, &(struct jacobian_product){a, b, dx, dv, df});
     for (size_t i = 0; i < sim->hook_count[EFFECT_FORCES]; i++) {
         const struct effect_hook *hook = &sim->hooks[EFFECT_FORCES][i];

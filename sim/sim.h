@@ -239,6 +239,7 @@ struct sim {
     struct guard *guard;
     uint64_t
         evaluations; /* of sim_forces() since sim_open(), also of those for a look; nothing depends on it */
+    uint64_t products; /* of sim_force_product(), likewise */
 
     struct sim_ledger ledger;
 
