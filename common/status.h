@@ -22,7 +22,9 @@
     X(STATUS_RANGE, "a value is out of its range", 1)                    \
     X(STATUS_RESOURCE, "a program, library or device is missing", 1)     \
     X(STATUS_USAGE, "wrong usage", 2)                                    \
-    X(STATUS_DIVERGED, "the simulation diverged", 3)
+    X(STATUS_DIVERGED, "the simulation diverged", 3)                     \
+    X(STATUS_INTERRUPTED, "interrupted (SIGINT)", 130)                   \
+    X(STATUS_TERMINATED, "told to end (SIGTERM)", 143)
 
 enum status {
 #define STATUS_ENUM(name, meaning, exit_code) name,
@@ -55,7 +57,8 @@ enum status error_prefix(struct error *err, const char *prefix);
 /* A few words on what the status means. */
 const char *status_meaning(enum status status);
 
-/* The exit code of a program that ends with this status: 0 done, 1 failed, 2 wrong usage, 3 diverged. */
+/* The exit code of a program that ends with this status: 0 done, 1 failed, 2 wrong usage, 3 diverged,
+ * 128 + the signal that ended it. */
 int status_exit_code(enum status status);
 
 #endif

@@ -89,7 +89,7 @@ static enum status write_frame(const struct frames *frames, const struct slot *s
     char *path = NULL, time[32];
     size_t count = frames->options.text_count;
     struct image_text *texts = array_new(count + 1, sizeof *texts);
-    if (!texts || asprintf(&path, "%s/frame_%04zu.png", frames->folder, number) < 0) {
+    if (!texts || asprintf(&path, "%s/frame_%04zu.png", frames->folder, frames->options.first + number) < 0) {
         free(texts);
         return error_no_memory(err, "a frame");
     }

@@ -20,6 +20,7 @@ struct frames_options {
     const char *folder; /* frame_0000.png, frame_0001.png, ... are written here; made if missing; or NULL */
     const char *movie;  /* .mp4, .webm or .gif, through the program ffmpeg; or NULL */
     const char *sheet;  /* PNG of twelve moments, evenly spaced in how much the picture changes; or NULL */
+    size_t first;       /* number of the first PNG */
     double rate;        /* pictures a second in the movie; 0: 30 */
     int workers;        /* threads that encode PNGs; 0: one for each processor */
     const struct image_text

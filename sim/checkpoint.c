@@ -53,14 +53,13 @@ static void write_chunk(FILE *stream, const char *name, const void *first, size_
     fwrite(tail, 1, sizeof tail, stream);
 }
 
-static void write_head(FILE *stream, const struct sim *sim, size_t count)
+static void write_head(FILE *stream, const struct sim *sim)
 {
     unsigned char head[CHECKPOINT_HEAD_SIZE];
     const uint32_t order = CHECKPOINT_ORDER;
     put_number(head, CHECKPOINT_VERSION, 4);
     memcpy(head + 4, &order, sizeof order);
     put_number(head + 8, checkpoint_fingerprint(sim), 8);
-    put_number(head + 16, count, 4);
     write_chunk(stream, "HEAD", head, sizeof head, NULL, 0);
 }
 
@@ -77,13 +76,10 @@ static void write_run(FILE *stream, const struct checkpoint_run *run)
     write_chunk(stream, "ROWS", run->rows, run->row_bytes, NULL, 0);
 }
 
-static void write_state(FILE *stream, struct sim *sim, size_t number)
+static void write_state(FILE *stream, struct sim *sim)
 {
     struct sim_block blocks[SIM_BLOCKS_MAX];
     const size_t count = sim_blocks(sim, blocks);
-    unsigned char index[4];
-    put_number(index, number, 4);
-    write_chunk(stream, "SIM ", index, sizeof index, NULL, 0);
     for (size_t i = 0; i < count; i++) {
         unsigned char title[4 + 64];
         const size_t length = strnlen(blocks[i].name, 64);
@@ -93,10 +89,10 @@ static void write_state(FILE *stream, struct sim *sim, size_t number)
     }
 }
 
-enum status checkpoint_save(struct sim *const *sims, size_t count, const struct checkpoint_run *run,
-                            const char *path, struct error *err)
+enum status checkpoint_save(struct sim *sim, const struct checkpoint_run *run, const char *path,
+                            struct error *err)
 {
-    char *keys = checkpoint_keys(sims[0]);
+    char *keys = checkpoint_keys(sim);
     if (!keys)
         return error_no_memory(err, "the checkpoint");
     struct file_out *out = NULL;
@@ -104,11 +100,10 @@ enum status checkpoint_save(struct sim *const *sims, size_t count, const struct 
     if (!status) {
         FILE *stream = file_out_stream(out);
         fwrite(checkpoint_signature, 1, sizeof checkpoint_signature, stream);
-        write_head(stream, sims[0], count);
+        write_head(stream, sim);
         write_chunk(stream, "KEYS", keys, strlen(keys), NULL, 0);
         write_run(stream, run);
-        for (size_t i = 0; i < count; i++)
-            write_state(stream, sims[i], i);
+        write_state(stream, sim);
         write_chunk(stream, "END ", NULL, 0, NULL, 0);
         status = file_out_commit(out, err);
     }

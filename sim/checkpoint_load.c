@@ -22,9 +22,7 @@ struct chunk {
 struct reader {
     struct bytes file;
     size_t at;
-    struct sim *const *sims;
-    size_t count;  /* of sims */
-    size_t states; /* in the file, as HEAD has it */
+    struct sim *sim;
     uint64_t fingerprint;
 };
 
@@ -88,11 +86,6 @@ static enum status read_head(struct reader *reader, struct error *err)
         memcpy(&order, chunk.contents + 4, sizeof order);
     if (order != CHECKPOINT_ORDER)
         return refuse(&chunk, "was written by a machine with another order of bytes, or is damaged", err);
-    reader->states = get_number(chunk.contents + 16, 4);
-    if (reader->states < reader->count)
-        return error_set(err, STATUS_INPUT,
-                         "was written without --estimate, which must see a run from its start; leave "
-                         "--estimate out to go on");
     reader->fingerprint = get_number(chunk.contents + 8, 8);
     return STATUS_OK;
 }
@@ -115,15 +108,15 @@ static enum status compare_scenes(struct reader *reader, struct error *err)
     enum status status = next_chunk(reader, "KEYS", &chunk, err);
     if (status)
         return status;
-    char *was = copy_text(&chunk), *is = checkpoint_keys(reader->sims[0]), what[512];
+    char *was = copy_text(&chunk), *is = checkpoint_keys(reader->sim), what[512];
     if (!was || !is)
         status = error_no_memory(err, "the checkpoint");
     else if (scene_keys_differ(was, is, what, sizeof what))
         status = error_set(err, STATUS_INPUT, "is of another scene: %s", what);
-    else if (reader->fingerprint != checkpoint_fingerprint(reader->sims[0]))
+    else if (reader->fingerprint != checkpoint_fingerprint(reader->sim))
         status = error_set(err, STATUS_INPUT,
                            "is of another scene: the meshes of %s have other points, edges or triangles",
-                           reader->sims[0]->scene->path);
+                           reader->sim->scene->path);
     free(was);
     free(is);
     return status;
@@ -190,11 +183,11 @@ static enum status refuse_block(const struct chunk *chunk, const char *name, con
                      chunk->at, name, wanted ? wanted->name : "END ");
 }
 
-/* Fills one state with the DATA chunks that come next. sim NULL: nobody wants them. */
-static enum status read_blocks(struct reader *reader, struct sim *sim, struct error *err)
+/* Fills the state with the DATA chunks that come next. */
+static enum status read_blocks(struct reader *reader, struct error *err)
 {
     struct sim_block blocks[SIM_BLOCKS_MAX];
-    const size_t count = sim ? sim_blocks(sim, blocks) : 0;
+    const size_t count = sim_blocks(reader->sim, blocks);
     size_t filled = 0;
     while (comes_next(reader, "DATA")) {
         struct chunk chunk;
@@ -211,15 +204,15 @@ static enum status read_blocks(struct reader *reader, struct sim *sim, struct er
             if (size > 0)
                 memcpy(block->data, data, size);
             filled++;
-        } else if (sim && !only_records(name)) {
+        } else if (!only_records(name)) {
             return refuse_block(&chunk, name, block, size, err);
         }
     }
     struct chunk missing;
     if (filled < count && !only_records(blocks[filled].name))
         return next_chunk(reader, "DATA", &missing, err); /* which says what is there instead */
-    if (sim && sim->ledger.on && filled < count)
-        ledger_begin(sim);
+    if (filled < count)
+        ledger_begin(reader->sim);
     return STATUS_OK;
 }
 
@@ -243,23 +236,15 @@ static bool is_state(const struct sim *sim)
            sim->substeps <= GUARD_PARTS_MAX && sim->step > 0 && sim->step <= most;
 }
 
-static enum status read_states(struct reader *reader, struct error *err)
+static enum status read_state(struct reader *reader, struct error *err)
 {
-    for (size_t i = 0; i < reader->states; i++) {
-        struct chunk chunk;
-        enum status status = next_chunk(reader, "SIM ", &chunk, err);
-        if (status)
-            return status;
-        if (chunk.size != 4 || get_number(chunk.contents, 4) != i)
-            return refuse(&chunk, "is not the state that comes next", err);
-        struct sim *sim = i < reader->count ? reader->sims[i] : NULL;
-        status = read_blocks(reader, sim, err);
-        if (status)
-            return status;
-        if (sim && !is_state(sim))
-            return refuse(&chunk, "what it begins is no state: a flag or a time is out of its range", err);
-    }
-    return STATUS_OK;
+    const size_t at = reader->at;
+    enum status status = read_blocks(reader, err);
+    if (!status && !is_state(reader->sim))
+        return error_set(
+            err, STATUS_INPUT,
+            "the chunks DATA from byte %zu on are no state: a flag or a time is out of its range", at);
+    return status;
 }
 
 static enum status read_all(struct reader *reader, struct checkpoint_run *run, struct error *err)
@@ -275,7 +260,7 @@ static enum status read_all(struct reader *reader, struct checkpoint_run *run, s
     if (!status)
         status = read_run(reader, run, err);
     if (!status)
-        status = read_states(reader, err);
+        status = read_state(reader, err);
     if (!status)
         status = next_chunk(reader, "END ", &chunk, err);
     if (!status && reader->at != reader->file.size)
@@ -284,10 +269,9 @@ static enum status read_all(struct reader *reader, struct checkpoint_run *run, s
     return status;
 }
 
-enum status checkpoint_load(const char *path, struct sim *const *sims, size_t count,
-                            struct checkpoint_run *run, struct error *err)
+enum status checkpoint_load(const char *path, struct sim *sim, struct checkpoint_run *run, struct error *err)
 {
-    struct reader reader = {.sims = sims, .count = count};
+    struct reader reader = {.sim = sim};
     struct checkpoint_run got = {0};
     enum status status = file_read(path, &reader.file, err);
     if (status)

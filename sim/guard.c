@@ -128,7 +128,7 @@ enum status guard_step(struct sim *sim, bool first, struct error *err)
     const double parts = guard == SCENE_GUARD_OFF ? 1 : parts_needed(sim);
     if (parts > 1 && (guard == SCENE_GUARD_REFUSE || !(parts <= GUARD_PARTS_MAX)))
         return refuse(sim, err);
-    set_parts(sim, (uint32_t)parts);
+    set_parts(sim, (uint32_t)parts * sim->finer);
     return STATUS_OK;
 }
 

@@ -3,6 +3,7 @@
 #include "sim/guard.h"
 #include "sim/run.h"
 
+#include <signal.h>
 #include <stdlib.h>
 
 static enum status load_scene(const struct options *options, struct scene *scene, struct error *err)
@@ -28,8 +29,9 @@ static void note_repairs(const struct scene *scene, const struct mesh_report *re
     }
 }
 
-static enum status open_sim(struct sim *sim, const struct scene *scene, const struct options *options,
-                            struct error *err)
+/* *estimate stays NULL unless it is asked for. */
+static enum status open_sim(struct sim *sim, struct estimate **estimate, const struct scene *scene,
+                            const struct options *options, struct error *err)
 {
     struct mesh *meshes = calloc(scene->balloon_count, sizeof *meshes);
     struct mesh_report *reports = calloc(scene->balloon_count, sizeof *reports);
@@ -39,6 +41,8 @@ static enum status open_sim(struct sim *sim, const struct scene *scene, const st
         note_repairs(scene, reports);
         status = sim_open(sim, scene, meshes, options->threads, err);
     }
+    if (!status && options->estimate && !options->check)
+        status = estimate_open(sim, meshes, options->threads, estimate, err);
     for (size_t i = 0; meshes && i < scene->balloon_count; i++)
         mesh_clear(&meshes[i]);
     free(meshes);
@@ -80,15 +84,17 @@ static enum status perform(const struct options *options, struct error *err)
 {
     struct scene scene = {0};
     struct sim sim = {0};
+    struct estimate *estimate = NULL;
     enum status status = load_scene(options, &scene, err);
     if (!status && !options->explain)
-        status = open_sim(&sim, &scene, options, err);
+        status = open_sim(&sim, &estimate, &scene, options, err);
     if (!status && options->explain)
         print_effects(&scene);
     else if (!status && options->check)
         print_check(&sim);
     else if (!status)
-        status = run(options, &sim, err);
+        status = run(options, &sim, estimate, err);
+    estimate_close(estimate);
     sim_clear(&sim);
     scene_clear(&scene);
     return status;
@@ -99,6 +105,7 @@ int main(int argc, char **argv)
     struct options options;
     struct error err = {0};
     command_begin("balloon-sim");
+    signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is an error like a full disk */
     if (!options_parse(&options, argc, argv))
         return command_fail(&(struct error){.status = STATUS_NO_MEMORY});
     enum status status = STATUS_OK;

@@ -11,6 +11,10 @@ enum {
     OPTION_MOVIE,
     OPTION_SHEET,
     OPTION_LOG,
+    OPTION_CHECKPOINT,
+    OPTION_CHECKPOINT_EVERY,
+    OPTION_RESUME,
+    OPTION_ESTIMATE,
     OPTION_SET,
     OPTION_THREADS,
     OPTION_HASH,
@@ -24,6 +28,11 @@ static const struct argp_option option_table[] = {
     {"movie", OPTION_MOVIE, "FILE", 0, "Make a movie (.mp4, .webm or .gif; needs the program ffmpeg)", 1},
     {"contact-sheet", OPTION_SHEET, "FILE.png", 0, "Draw twelve moments into one picture", 1},
     {"log", OPTION_LOG, "FILE.tsv", 0, "Write a row of measures a frame", 1},
+    {"estimate", OPTION_ESTIMATE, 0, 0,
+     "Measure the error beside the run, and say what halving it would cost", 1},
+    {"checkpoint", OPTION_CHECKPOINT, "FILE", 0, "Keep the run in this file, now and then and at the end", 1},
+    {"checkpoint-every", OPTION_CHECKPOINT_EVERY, "SECONDS", 0, "How often (default: 60)", 1},
+    {"resume", OPTION_RESUME, "FILE", 0, "Go on with the run that is kept in this file", 1},
     {"output", 'o', "FILE", 0, "Write the skin as it is at the end (.ply, .stl or .obj)", 1},
     {"hash", OPTION_HASH, 0, 0, "Print a 64-bit hash of the final state as the last line", 1},
     {"set", OPTION_SET, "KEY=VALUE", 0, "Change a key of the scene, by its path: balloons[0].pressure=12", 2},
@@ -51,6 +60,18 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         break;
     case OPTION_LOG:
         o->log = argument;
+        break;
+    case OPTION_CHECKPOINT:
+        o->checkpoint = argument;
+        break;
+    case OPTION_CHECKPOINT_EVERY:
+        o->checkpoint_every = command_number(state, "--checkpoint-every", argument, 0, 1e9);
+        break;
+    case OPTION_RESUME:
+        o->resume = argument;
+        break;
+    case OPTION_ESTIMATE:
+        o->estimate = true;
         break;
     case 'o':
         if (!mesh_is_file_name(argument))
@@ -86,6 +107,12 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
     case ARGP_KEY_END:
         if (!o->scene && !o->help_scene)
             argp_error(state, "give a scene (.cfg) or a mesh (.ply, .stl, .obj)");
+        if (o->estimate && o->resume)
+            argp_error(state, "--estimate measures a run from its start: leave --resume out");
+        if (o->checkpoint_every >= 0 && !o->checkpoint)
+            argp_error(state, "--checkpoint-every: give --checkpoint FILE too");
+        if (o->checkpoint_every < 0)
+            o->checkpoint_every = 60;
         break;
     default:
         return ARGP_ERR_UNKNOWN;
@@ -103,7 +130,7 @@ bool options_parse(struct options *options, int argc, char **argv)
         0,
         0,
         0};
-    *options = (struct options){.set = array_new((size_t)argc, sizeof *options->set)};
+    *options = (struct options){.set = array_new((size_t)argc, sizeof *options->set), .checkpoint_every = -1};
     if (!options->set)
         return false;
     argp_parse(&argp, argc, argv, 0, NULL, options);

@@ -10,6 +10,9 @@ struct options {
     const char **set; /* [set_count] KEY=VALUE, in order */
     size_t set_count;
     const char *frames, *movie, *sheet, *log, *mesh;
+    const char *checkpoint, *resume;
+    double checkpoint_every; /* s */
+    bool estimate;
     unsigned threads; /* 0: as many as the machine has */
     bool hash, check, explain, help_scene;
 };

@@ -1,109 +1,127 @@
 #include "sim/run.h"
 #include "common/command.h"
-#include "sim/film.h"
+#include "common/file.h"
 #include "sim/guard.h"
+#include "sim/interrupt.h"
 #include "sim/ledger.h"
+#include "sim/outputs.h"
 
 #include <inttypes.h>
 #include <math.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <time.h>
 
-/* What becomes of the states: pictures, and rows in the log. */
-struct outputs {
-    struct film *film;
-    struct sim_log *log;
-    double next; /* number of the next frame, in frames of view.rate */
+struct run {
+    const struct options *options;
+    struct sim *sim;
+    struct outputs outputs;
+    struct checkpoint_run past; /* before the run was resumed; all 0 without */
+    double first_break;         /* s; -1: nothing has broken */
+    double began, kept;         /* now() at the start, and at the last checkpoint */
+    bool said;                  /* what the guard does */
 };
 
-static enum status show_state(struct outputs *outputs, struct sim *sim, struct error *err)
+static double now(void)
 {
-    if (outputs->log)
-        sim_log_row(outputs->log, sim);
-    return outputs->film ? film_frame(outputs->film, err) : STATUS_OK;
-}
-
-/* All frames that are due: at their own times where the method can tell what was inside a step, else one of the state as it is
- * now. */
-static enum status show_frames(struct outputs *outputs, struct sim *sim, struct error *err)
-{
-    const double rate = sim->scene->view.rate,
-                 number = sim->time * rate + 1e-6; /* rounding must not put a frame off */
-    enum status status = STATUS_OK;
-    if (!sim->integrator->look && number >= outputs->next)
-        outputs->next = floor(number);
-    for (; !status && number >= outputs->next; outputs->next++) {
-        sim_look(sim, outputs->next / rate);
-        status = show_state(outputs, sim, err);
-        sim_look_end(sim);
-    }
-    return status;
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
 /* Says once that steps are split, and why. */
-static void note_guard(struct sim *sim, bool *said)
+static void note_guard(struct run *run)
 {
     char text[256];
-    if (*said || sim->substeps == 1)
+    if (run->said || run->sim->substeps == 1)
         return;
-    *said = true;
-    guard_describe(sim, text, sizeof text);
+    run->said = true;
+    guard_describe(run->sim, text, sizeof text);
     command_note("%s", text);
 }
 
-/* Steps to the end. *first_break becomes the time at which the first edge broke; it stays as it was when none did. */
-static enum status step_to_end(struct sim *sim, struct outputs *outputs, double *first_break,
-                               struct error *err)
+static enum status keep(struct run *run, struct error *err)
 {
-    const double end = sim->scene->time.end;
-    enum status status = show_frames(outputs, sim, err);
-    const double steps = end / sim->step;
-    bool said = false;
-    progress_begin("inflating", "steps", steps);
-    while (!status && !sim_at_end(sim)) {
-        status = sim_step(sim, err);
-        note_guard(sim, &said);
-        if (!status)
-            status = show_frames(outputs, sim, err);
-        if (sim->broken && *first_break < 0)
-            *first_break = sim->time;
-        progress_update(sim->time / end * steps);
-    }
-    progress_end();
+    struct checkpoint_run whole = {.first_break = run->first_break,
+                                   .seconds = run->past.seconds + now() - run->began,
+                                   .shown = run->outputs.shown,
+                                   .rows = run->past.rows,
+                                   .row_bytes = run->past.row_bytes};
+    if (run->outputs.log)
+        whole.rows = (char *)sim_log_rows(run->outputs.log, &whole.row_bytes);
+    if (run->outputs.log && !whole.rows)
+        return error_no_memory(err, "the checkpoint");
+    enum status status = checkpoint_save(run->sim, &whole, run->options->checkpoint, err);
+    run->kept = now();
     return status;
 }
 
-static enum status open_outputs(struct outputs *outputs, const struct options *options, struct sim *sim,
-                                struct error *err)
+/* Between two steps: keeps the run when that is due, ends it when somebody wants it to. */
+static enum status look_up(struct run *run, struct error *err)
 {
-    if (options->log) {
-        enum status status = ledger_open(sim, err);
-        if (!status)
-            status = sim_log_open(options->log, &outputs->log, err);
-        if (status)
-            return status;
-    }
-    if (!options->frames && !options->movie && !options->sheet)
-        return STATUS_OK;
-    struct frames_options frames = {.folder = options->frames,
-                                    .movie = options->movie,
-                                    .sheet = options->sheet,
-                                    .rate = sim->scene->view.playback};
-    return film_open(sim, &frames, &outputs->film, err);
+    const struct options *options = run->options;
+    const int caught = interrupt_caught();
+    enum status status = STATUS_OK;
+    if (options->checkpoint && (caught || now() - run->kept >= options->checkpoint_every))
+        status = keep(run, err);
+    if (status || !caught)
+        return status;
+    return error_set(err, caught == SIGINT ? STATUS_INTERRUPTED : STATUS_TERMINATED,
+                     "interrupted at %g s, after %" PRIu64 " steps; %s%s", run->sim->time, run->sim->steps,
+                     options->checkpoint ? "to go on: the same command with --resume "
+                                         : "--checkpoint FILE would have kept the run",
+                     options->checkpoint ? options->checkpoint : "");
 }
 
-/* A run that diverged keeps what it has shown so far; any other failure leaves the old log. */
-static enum status close_outputs(struct outputs *outputs, enum status status, struct error *err)
+static enum status step(struct run *run, struct error *err)
 {
-    const bool keep = !status || status == STATUS_DIVERGED;
-    struct error other = {0};
-    enum status closed = film_close(outputs->film, &other);
-    if (!keep)
-        sim_log_abandon(outputs->log);
-    else if (sim_log_close(outputs->log, closed ? NULL : &other) && !closed)
-        closed = other.status;
-    if (status || !closed)
-        return status;
-    *err = other;
-    return closed;
+    struct sim *sim = run->sim;
+    enum status status = sim_step(sim, err);
+    note_guard(run);
+    if (sim->broken && run->first_break < 0)
+        run->first_break = sim->time;
+    return status ? status : outputs_show(&run->outputs, sim, err);
+}
+
+static enum status step_to_end(struct run *run, struct error *err)
+{
+    struct sim *sim = run->sim;
+    const double end = sim->scene->time.end, steps = end / sim->step;
+    enum status status = outputs_show(&run->outputs, sim, err);
+    run->began = run->kept = now();
+    progress_begin("inflating", "steps", steps);
+    while (!status && !sim_at_end(sim)) {
+        status = step(run, err);
+        if (!status)
+            status = look_up(run, err);
+        progress_update(sim->time / end * steps);
+    }
+    progress_end();
+    return !status && run->options->checkpoint ? keep(run, err) : status;
+}
+
+/* What cannot be written is found out before the work, not after it. */
+static enum status probe(const char *path, struct error *err)
+{
+    struct file_out *out = NULL;
+    enum status status = path ? file_out_open(path, &out, err) : STATUS_OK;
+    file_out_abandon(out);
+    return status;
+}
+
+static enum status begin(struct run *run, struct error *err)
+{
+    const struct options *options = run->options;
+    enum status status = probe(options->checkpoint, err);
+    if (!status && options->log)
+        status = ledger_open(run->sim, err);
+    if (!status && options->resume) {
+        status = checkpoint_load(options->resume, run->sim, &run->past, err);
+        run->first_break = run->past.first_break;
+    }
+    if (!status)
+        status = outputs_open(&run->outputs, options, run->sim, options->resume ? &run->past : NULL, err);
+    return status;
 }
 
 static enum status save_skin(const struct sim *sim, const char *path, struct error *err)
@@ -121,32 +139,35 @@ static enum status save_skin(const struct sim *sim, const char *path, struct err
     return status;
 }
 
-static void print_summary(struct sim *sim, double first_break)
+static void print_summary(struct run *run)
 {
+    struct sim *sim = run->sim;
     const struct sim_measures m = sim_measure(sim);
     printf("%g s in %" PRIu64 " steps: %u of %u edges and %u of %u triangles are left, in %u pieces; ",
            sim->time, sim->steps, m.edges_active, sim->edge_count, m.triangles_active, sim->triangle_count,
            m.pieces);
-    if (first_break < 0)
+    if (run->first_break < 0)
         printf("nothing broke\n");
     else
-        printf("the first edge broke at %g s\n", first_break);
+        printf("the first edge broke at %g s\n", run->first_break);
+    if (run->outputs.estimate)
+        estimate_print(run->outputs.estimate, stdout);
+    if (run->options->hash)
+        printf("%016" PRIx64 "\n", sim_hash(sim));
 }
 
-enum status run(const struct options *options, struct sim *sim, struct error *err)
+enum status run(const struct options *options, struct sim *sim, struct estimate *estimate, struct error *err)
 {
-    struct outputs outputs = {0};
-    double first_break = -1;
-    enum status status = open_outputs(&outputs, options, sim, err);
+    struct run run = {.options = options, .sim = sim, .outputs = {.estimate = estimate}, .first_break = -1};
+    interrupt_watch();
+    enum status status = begin(&run, err);
     if (!status)
-        status = step_to_end(sim, &outputs, &first_break, err);
-    status = close_outputs(&outputs, status, err);
+        status = step_to_end(&run, err);
+    status = outputs_close(&run.outputs, status, err);
     if (!status && options->mesh)
         status = save_skin(sim, options->mesh, err);
-    if (status)
-        return status;
-    print_summary(sim, first_break);
-    if (options->hash)
-        printf("%016" PRIx64 "\n", sim_hash(sim));
-    return STATUS_OK;
+    if (!status)
+        print_summary(&run);
+    free(run.past.rows);
+    return status;
 }

@@ -2,10 +2,12 @@
 #ifndef SIM_RUN_H
 #define SIM_RUN_H
 
+#include "sim/estimate.h"
 #include "sim/options.h"
 #include "sim/sim.h"
 
-/* Does what the options ask for with an open sim; the summary goes to stdout. Errors: all of the step's and the outputs'. */
-enum status run(const struct options *options, struct sim *sim, struct error *err);
+/* Does what the options ask for with an open sim, and what the estimate (NULL: none) says about it; the summary goes to stdout.
+ * Errors: all of the step's and the outputs', and STATUS_INTERRUPTED or STATUS_TERMINATED after a signal. */
+enum status run(const struct options *options, struct sim *sim, struct estimate *estimate, struct error *err);
 
 #endif

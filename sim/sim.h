@@ -222,6 +222,7 @@ struct sim {
     double time;       /* s */
     double whole_step; /* s, as the schedule has it now; the longest one where a method chooses for itself */
     uint32_t substeps; /* in which the guard splits it (guard.h) */
+    uint32_t finer;    /* parts of what would be a substep: 1, but more for an estimate's companions */
     double step;       /* s: whole_step / substeps, a step of the method */
     double time_base;  /* when the step last changed */
     uint64_t steps_since; /* steps taken since then */
@@ -322,14 +323,6 @@ struct sim_measures {
     uint32_t pieces; /* of active triangles, joined where they share an edge */
 };
 struct sim_measures sim_measure(struct sim *sim);
-
-/* The log: tab-separated, a header, a row a call. It replaces path when it is closed, and not before. */
-struct sim_log;
-enum status sim_log_open(const char *path, struct sim_log **log, struct error *err);
-void sim_log_row(struct sim_log *log, struct sim *sim);
-enum status sim_log_close(struct sim_log *log,
-                          struct error *err); /* frees it, whatever it returns; NULL is fine */
-void sim_log_abandon(struct sim_log *log);    /* NULL is fine */
 
 /* The skin that is left, as a mesh of its own. */
 enum status sim_skin(const struct sim *sim, struct mesh *mesh, struct error *err);

@@ -10,13 +10,13 @@ static enum status save(struct sim *sim, const char *path, struct error *err)
 {
     const struct checkpoint_run run = {
         .first_break = -1, .seconds = 2.5, .shown = 7, .rows = "row\n", .row_bytes = 4};
-    return checkpoint_save(&sim, 1, &run, path, err);
+    return checkpoint_save(sim, &run, path, err);
 }
 
 static enum status load(struct sim *sim, const char *path, struct error *err)
 {
     struct checkpoint_run run = {0};
-    enum status status = checkpoint_load(path, &sim, 1, &run, err);
+    enum status status = checkpoint_load(path, sim, &run, err);
     free(run.rows);
     return status;
 }
@@ -79,7 +79,7 @@ static void a_checkpoint_carries_what_the_program_knows_of_the_run(void **state)
     open_balloon(&b, 0, SETTINGS("balloons[0].pressure=10"));
     assert_ok(save(&b.sim, "a.ck", &err), &err);
     struct checkpoint_run run = {0};
-    assert_ok(checkpoint_load("a.ck", &(struct sim *){&b.sim}, 1, &run, &err), &err);
+    assert_ok(checkpoint_load("a.ck", &b.sim, &run, &err), &err);
     assert_near(run.first_break, -1, 0);
     assert_near(run.seconds, 2.5, 0);
     assert_int_equal(run.shown, 7);
@@ -87,34 +87,6 @@ static void a_checkpoint_carries_what_the_program_knows_of_the_run(void **state)
     assert_string_equal(run.rows, "row\n");
     free(run.rows);
     unlink("a.ck");
-    close_balloon(&b);
-}
-
-static void companions_are_kept_too_and_may_be_left_behind(void **state)
-{
-    (void)state;
-    struct error err = {0};
-    struct balloon a, b;
-    open_balloon(&a, 0, SETTINGS("balloons[0].pressure=10"));
-    open_balloon(&b, 0, SETTINGS("balloons[0].pressure=10"));
-    steps(&a, 3);
-    steps(&b, 6);
-    const uint64_t hash[2] = {sim_hash(&a.sim), sim_hash(&b.sim)};
-    struct sim *const sims[2] = {&a.sim, &b.sim};
-    struct checkpoint_run run = {0};
-    assert_ok(checkpoint_save(sims, 2, &run, "two.ck", &err), &err);
-    assert_ok(checkpoint_save(sims, 1, &run, "one.ck", &err), &err);
-    steps(&a, 1);
-    steps(&b, 1);
-    assert_ok(load(&a.sim, "two.ck", &err), &err);
-    assert_true(sim_hash(&a.sim) == hash[0] && sim_hash(&b.sim) != hash[1]);
-    assert_ok(checkpoint_load("two.ck", sims, 2, &run, &err), &err);
-    assert_true(sim_hash(&b.sim) == hash[1]);
-    free(run.rows);
-    assert_refused(checkpoint_load("one.ck", sims, 2, &run, &err), STATUS_INPUT, "without --estimate", &err);
-    unlink("one.ck");
-    unlink("two.ck");
-    close_balloon(&a);
     close_balloon(&b);
 }
 
@@ -262,7 +234,7 @@ static void what_is_sound_and_yet_no_state_is_refused(void **state)
         write_bytes("a.ck", file.data, file.size);
         struct sim sim;
         assert_ok(sim_open(&sim, &b.scene, &b.mesh, 1, &err), &err);
-        assert_refused(load(&sim, "a.ck", &err), STATUS_INPUT, "is no state", &err);
+        assert_refused(load(&sim, "a.ck", &err), STATUS_INPUT, "are no state", &err);
         sim_clear(&sim);
         bytes_clear(&file);
     }
@@ -283,7 +255,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_resumed_run_is_equal_to_the_bit_to_one_that_never_stopped),
         cmocka_unit_test(a_checkpoint_carries_what_the_program_knows_of_the_run),
-        cmocka_unit_test(companions_are_kept_too_and_may_be_left_behind),
         cmocka_unit_test(the_ledger_goes_along),
         cmocka_unit_test(another_scene_is_refused_with_the_key_that_differs),
         cmocka_unit_test(a_file_that_is_no_checkpoint_is_refused),

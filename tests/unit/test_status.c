@@ -68,12 +68,14 @@ static void exit_codes_are_those_that_are_promised(void **state)
     assert_int_equal(status_exit_code(STATUS_RESOURCE), 1);
     assert_int_equal(status_exit_code(STATUS_USAGE), 2);
     assert_int_equal(status_exit_code(STATUS_DIVERGED), 3);
+    assert_int_equal(status_exit_code(STATUS_INTERRUPTED), 130); /* as a shell says it: 128 + the signal */
+    assert_int_equal(status_exit_code(STATUS_TERMINATED), 143);
 }
 
 static void every_status_has_a_meaning(void **state)
 {
     (void)state;
-    for (int status = STATUS_OK; status <= STATUS_DIVERGED; status++)
+    for (int status = STATUS_OK; status <= STATUS_TERMINATED; status++)
         assert_true(strlen(status_meaning((enum status)status)) > 0);
 }
 

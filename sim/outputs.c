@@ -1,0 +1,81 @@
+#include "sim/outputs.h"
+
+#include <math.h>
+
+static enum status open_log(struct outputs *outputs, const struct options *options,
+                            const struct checkpoint_run *past, struct error *err)
+{
+    struct sim_log_options log = {.position_error = options->estimate, .keep = options->checkpoint};
+    if (past) {
+        log.rows = past->rows;
+        log.row_bytes = past->row_bytes;
+        log.seconds = past->seconds;
+    }
+    return sim_log_open(options->log, &log, &outputs->log, err);
+}
+
+enum status outputs_open(struct outputs *outputs, const struct options *options, struct sim *sim,
+                         const struct checkpoint_run *past, struct error *err)
+{
+    enum status status = STATUS_OK;
+    if (past) {
+        outputs->shown = past->shown;
+        outputs->next = floor(sim->time * sim->scene->view.rate + 1e-6) + 1;
+    }
+    if (options->log)
+        status = open_log(outputs, options, past, err);
+    if (status || (!options->frames && !options->movie && !options->sheet))
+        return status;
+    struct frames_options frames = {.folder = options->frames,
+                                    .movie = options->movie,
+                                    .sheet = options->sheet,
+                                    .first = outputs->shown,
+                                    .rate = sim->scene->view.playback};
+    return film_open(sim, &frames, &outputs->film, err);
+}
+
+static enum status show_state(struct outputs *outputs, struct sim *sim, struct error *err)
+{
+    double error = NAN;
+    enum status status = STATUS_OK;
+    if (outputs->estimate)
+        status = estimate_compare(outputs->estimate, sim, &error, err);
+    if (status)
+        return status;
+    outputs->shown++;
+    if (outputs->log)
+        sim_log_row(outputs->log, sim, error);
+    return outputs->film ? film_frame(outputs->film, err) : STATUS_OK;
+}
+
+/* At their own times where the method can tell what was inside a step, else one of the state as it is now. */
+enum status outputs_show(struct outputs *outputs, struct sim *sim, struct error *err)
+{
+    const double rate = sim->scene->view.rate,
+                 number = sim->time * rate + 1e-6; /* rounding must not put a frame off */
+    enum status status = STATUS_OK;
+    if (!sim->integrator->look && number >= outputs->next)
+        outputs->next = floor(number);
+    for (; !status && number >= outputs->next; outputs->next++) {
+        sim_look(sim, outputs->next / rate);
+        status = show_state(outputs, sim, err);
+        sim_look_end(sim);
+    }
+    return status;
+}
+
+enum status outputs_close(struct outputs *outputs, enum status status, struct error *err)
+{
+    const bool keep = !status || status == STATUS_DIVERGED || status == STATUS_INTERRUPTED ||
+                      status == STATUS_TERMINATED;
+    struct error other = {0};
+    enum status closed = film_close(outputs->film, &other);
+    if (!keep)
+        sim_log_abandon(outputs->log);
+    else if (sim_log_close(outputs->log, closed ? NULL : &other) && !closed)
+        closed = other.status;
+    if (status || !closed)
+        return status;
+    *err = other;
+    return closed;
+}

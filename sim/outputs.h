@@ -1,0 +1,31 @@
+/* What becomes of a run's states: pictures, and rows in the log. */
+#ifndef SIM_OUTPUTS_H
+#define SIM_OUTPUTS_H
+
+#include "sim/checkpoint.h"
+#include "sim/estimate.h"
+#include "sim/film.h"
+#include "sim/log.h"
+#include "sim/options.h"
+
+struct outputs {
+    struct film *film;
+    struct sim_log *log;
+    struct estimate *estimate; /* asked about each frame; borrowed; NULL: nobody asks */
+    double next;               /* number of the next frame, in frames of view.rate */
+    uint64_t shown;            /* frames so far */
+};
+
+/* Opens what the options ask for; *outputs has its estimate, else it is empty. `past` is the part of the run before it was
+ * resumed: frames and rows go on from there; NULL: there is none. */
+enum status outputs_open(struct outputs *outputs, const struct options *options, struct sim *sim,
+                         const struct checkpoint_run *past, struct error *err);
+
+/* All frames that are due by now. */
+enum status outputs_show(struct outputs *outputs, struct sim *sim, struct error *err);
+
+/* Ends all, after a run that ended with `status`: one that diverged or was interrupted keeps what it has shown so far; any other
+ * failure leaves the old log. Returns that status, or the first failure here. */
+enum status outputs_close(struct outputs *outputs, enum status status, struct error *err);
+
+#endif
