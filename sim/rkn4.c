@@ -13,19 +13,20 @@
  *
  * Scalars flow during the kicks, as velocities do.
  */
+#include "sim/rkn4.h"
 #include "sim/methods.h"
 #include "sim/vectors.h"
 
 #include <stdlib.h>
 
-enum { KICKS = 7, STAGES = 4 };
+enum { STAGES = 4 }; /* of a damped kick */
 #define B1 0.0829844064174052
 #define B2 0.396309801498368
 #define B3 -0.0390563049223486
 #define A1 0.245298957184271
 #define A2 0.604872665711080
-static const double kick_share[KICKS] = {B1, B2, B3, 1 - 2 * (B1 + B2 + B3), B3, B2, B1};
-static const double drift_share[KICKS] = {0, A1, A2, 0.5 - (A1 + A2), 0.5 - (A1 + A2), A2, A1};
+const double rkn4_kick[RKN4_KICKS] = {B1, B2, B3, 1 - 2 * (B1 + B2 + B3), B3, B2, B1};
+const double rkn4_drift[RKN4_KICKS] = {0, A1, A2, 0.5 - (A1 + A2), 0.5 - (A1 + A2), A2, A1};
 
 struct rkn4 {
     uint64_t remembers; /* 1: scratch[0] is the acceleration at the end of the last step */
@@ -71,14 +72,14 @@ static void kick_scalars(struct sim *sim, double dt)
 static void advance_conservative(struct sim *sim, double dt)
 {
     struct rkn4 *rkn4 = sim->method;
-    for (int k = 0; k < KICKS; k++) {
+    for (int k = 0; k < RKN4_KICKS; k++) {
         if (k > 0)
-            vector_add(sim, sim->position, dt * drift_share[k], sim->velocity);
+            vector_add(sim, sim->position, dt * rkn4_drift[k], sim->velocity);
         if (k > 0 || !rkn4->remembers || sim->changed)
             evaluate(sim);
         if (sim->scalar_count > 0)
-            kick_scalars(sim, dt * kick_share[k]);
-        vector_add(sim, sim->velocity, dt * kick_share[k], sim->scratch[0]);
+            kick_scalars(sim, dt * rkn4_kick[k]);
+        vector_add(sim, sim->velocity, dt * rkn4_kick[k], sim->scratch[0]);
     }
     rkn4->remembers = 1;
 }
@@ -105,10 +106,10 @@ static void kick_damped(struct sim *sim, double dt)
 
 static void advance_damped(struct sim *sim, double dt)
 {
-    for (int k = 0; k < KICKS; k++) {
+    for (int k = 0; k < RKN4_KICKS; k++) {
         if (k > 0)
-            vector_add(sim, sim->position, dt * drift_share[k], sim->velocity);
-        kick_damped(sim, dt * kick_share[k]);
+            vector_add(sim, sim->position, dt * rkn4_drift[k], sim->velocity);
+        kick_damped(sim, dt * rkn4_kick[k]);
     }
     ((struct rkn4 *)sim->method)->remembers = 0;
 }

@@ -1,5 +1,6 @@
 /* The order of every method that moves the points, by halving, and by the conditions on its coefficients. */
 #include "moving.h"
+#include "sim/rkn4.h"
 #include "sim/runge_kutta.h"
 
 static double error_against(const struct balloon *reference, const char *const *settings,
@@ -138,6 +139,71 @@ static void the_tableaux_meet_all_order_conditions(void **state)
         }
 }
 
+/* The conditions of fourth order for x'' = f(x) (Nystroem; Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I,
+ * II.14), with the kicks b at the times c, and a_ij = b_j (c_i - c_j). */
+static void the_kicks_and_drifts_of_rkn4_meet_all_order_conditions(void **state)
+{
+    (void)state;
+    const double *b = rkn4_kick;
+    double c[RKN4_KICKS] = {0}, sum[7] = {0};
+    for (int i = 1; i < RKN4_KICKS; i++)
+        c[i] = c[i - 1] + rkn4_drift[i];
+    for (int i = 0; i < RKN4_KICKS; i++) {
+        double a = 0, ac = 0;
+        for (int j = 0; j < i; j++) {
+            a += b[j] * (c[i] - c[j]);
+            ac += b[j] * (c[i] - c[j]) * c[j];
+        }
+        const double term[] = {1, c[i], c[i] * c[i], a, c[i] * c[i] * c[i], c[i] * a, ac};
+        for (int k = 0; k < 7; k++)
+            sum[k] += b[i] * term[k];
+    }
+    static const double wanted[] = {1, 1.0 / 2, 1.0 / 3, 1.0 / 6, 1.0 / 4, 1.0 / 8, 1.0 / 24};
+    for (int k = 0; k < 7; k++)
+        assert_near(sum[k], wanted[k], 1e-14); /* 15 printed digits */
+    assert_near(c[RKN4_KICKS - 1], 1, 1e-15);
+}
+
+/* The limit that the table states is where an oscillator's half trace leaves [-1, 1]. */
+static double half_trace_of_rkn4(double z)
+{
+    double x[2] = {1, 0}, v[2] = {0, 1};
+    for (int k = 0; k < RKN4_KICKS; k++)
+        for (int i = 0; i < 2; i++) {
+            x[i] += rkn4_drift[k] * z * v[i];
+            v[i] -= rkn4_kick[k] * z * x[i];
+        }
+    return (x[0] + v[1]) / 2;
+}
+
+/* What a decay at the rate z becomes in a step: each kick the classic Runge-Kutta method's fourth-order series. */
+static double decay_of_rkn4(double z)
+{
+    double product = 1;
+    for (int k = 0; k < RKN4_KICKS; k++) {
+        const double y = -rkn4_kick[k] * z;
+        product *= 1 + y * (1 + y / 2 * (1 + y / 3 * (1 + y / 4)));
+    }
+    return product;
+}
+
+static void the_stated_limits_of_rkn4_and_rk4_are_where_they_lose_stability(void **state)
+{
+    (void)state;
+    const struct integrator *rkn4 = integrator_find("rkn4"), *rk4 = integrator_find("rk4");
+    for (double part = 0.001; part < 1; part += 0.001) {
+        assert_true(fabs(half_trace_of_rkn4(part * rkn4->oscillation_limit)) <= 1 + 1e-12);
+        assert_true(fabs(decay_of_rkn4(part * rkn4->decay_limit)) <= 1);
+    }
+    assert_true(fabs(half_trace_of_rkn4(1.001 * rkn4->oscillation_limit)) > 1);
+    assert_true(fabs(decay_of_rkn4(1.001 * rkn4->decay_limit)) > 1);
+
+    /* |1 + z + z^2/2 + z^3/6 + z^4/24| = 1 at z = i y, y^2 = 8, and at the negative real root */
+    assert_near(rk4->oscillation_limit, sqrt(8), 1e-5);
+    const double z = rk4->decay_limit;
+    assert_near(1 - z * (1 - z / 2 * (1 - z / 3 * (1 - z / 4))), 1, 1e-5);
+}
+
 /* What rkn4 does to an oscillator in one step of dt w = z is off by z^5 at most: its coefficients meet every condition that a
  * linear force can test. */
 static void a_step_of_rkn4_is_off_by_the_fifth_power(void **state)
@@ -168,6 +234,8 @@ int main(void)
         cmocka_unit_test(and_with_damping),
         cmocka_unit_test(the_adaptive_methods_error_is_proportional_to_their_tolerance),
         cmocka_unit_test(the_tableaux_meet_all_order_conditions),
+        cmocka_unit_test(the_kicks_and_drifts_of_rkn4_meet_all_order_conditions),
+        cmocka_unit_test(the_stated_limits_of_rkn4_and_rk4_are_where_they_lose_stability),
         cmocka_unit_test(a_step_of_rkn4_is_off_by_the_fifth_power),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
