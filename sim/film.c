@@ -14,14 +14,12 @@ struct film {
 };
 
 /* The scene measures in radii of the ball around all points at rest. */
-static void set_camera(struct render_view *view, const struct sim *sim)
+static void set_camera(struct render_view *view, const struct sim *sim, const double centre[3], double radius)
 {
     static const enum render_stereo stereo[] = {
         [SCENE_MONO] = RENDER_MONO, [SCENE_PARALLEL] = RENDER_PARALLEL, [SCENE_CROSSED] = RENDER_CROSSED};
     const struct scene_view *scene = &sim->scene->view;
     struct render_camera *camera = &view->camera;
-    double centre[3];
-    const double radius = skins_ball(sim, centre);
     for (int i = 0; i < 3; i++) {
         camera->target[i] = centre[i] + radius * scene->target[i];
         camera->eye[i] = camera->target[i] + radius * scene->camera[i];
@@ -39,13 +37,13 @@ static void set_camera(struct render_view *view, const struct sim *sim)
     view->floor_height = centre[1] - 1.8 * radius; /* it floats, with room to swell */
 }
 
-enum status film_open(struct sim *sim, const struct frames_options *options, struct film **result,
-                      struct error *err)
+enum status film_open(struct sim *sim, const double centre[3], double radius,
+                      const struct frames_options *options, struct film **result, struct error *err)
 {
     struct film *film = calloc(1, sizeof *film);
     if (!film)
         return error_no_memory(err, "the film");
-    set_camera(&film->view, sim);
+    set_camera(&film->view, sim, centre, radius);
     enum status status = skins_init(&film->skins, sim, err);
     if (!status)
         status = render_open(film->view.width, film->view.height, &film->render, err);

@@ -1,6 +1,12 @@
 #include "sim/outputs.h"
+#include "sim/skins.h"
 
 #include <math.h>
+
+void outputs_find_rest(struct outputs *outputs, const struct sim *sim)
+{
+    outputs->radius = skins_ball(sim, outputs->centre);
+}
 
 static enum status open_log(struct outputs *outputs, const struct options *options,
                             const struct checkpoint_run *past, struct error *err)
@@ -31,7 +37,7 @@ enum status outputs_open(struct outputs *outputs, const struct options *options,
                                     .sheet = options->sheet,
                                     .first = outputs->shown,
                                     .rate = sim->scene->view.playback};
-    return film_open(sim, &frames, &outputs->film, err);
+    return film_open(sim, outputs->centre, outputs->radius, &frames, &outputs->film, err);
 }
 
 static enum status show_state(struct outputs *outputs, struct sim *sim, struct error *err)

@@ -12,11 +12,15 @@ struct outputs {
     struct film *film;
     struct sim_log *log;
     struct estimate *estimate; /* asked about each frame; borrowed; NULL: nobody asks */
+    double centre[3], radius;  /* of the ball around all points at rest */
     double next;               /* number of the next frame, in frames of view.rate */
     uint64_t shown;            /* frames so far */
 };
 
-/* Opens what the options ask for; *outputs has its estimate, else it is empty. `past` is the part of the run before it was
+/* Remembers where everything is at rest: before a state is loaded. */
+void outputs_find_rest(struct outputs *outputs, const struct sim *sim);
+
+/* Opens what the options ask for; *outputs has its estimate and where it rests, else it is empty. `past` is the part of the run before it was
  * resumed: frames and rows go on from there; NULL: there is none. */
 enum status outputs_open(struct outputs *outputs, const struct options *options, struct sim *sim,
                          const struct checkpoint_run *past, struct error *err);

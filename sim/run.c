@@ -113,6 +113,7 @@ static enum status begin(struct run *run, struct error *err)
 {
     const struct options *options = run->options;
     enum status status = probe(options->checkpoint, err);
+    outputs_find_rest(&run->outputs, run->sim);
     if (!status && options->log)
         status = ledger_open(run->sim, err);
     if (!status && options->resume) {

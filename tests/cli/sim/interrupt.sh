@@ -1,0 +1,38 @@
+# Ctrl-C and kill end a run between two steps: it keeps log and checkpoint, says how to go on, and ends with 128 + the signal.
+ply m.ply "$tetra_points" "$tetra_triangles"
+long='--set time.end=1e6 --set balloons[0].pressure=0 --set view.rate=0.001 --threads 1'
+
+# stopped SIGNAL EXIT ARGUMENTS...: runs it, waits for its first checkpoint, sends the signal
+stopped()
+{
+    signal=$1
+    wanted_exit=$2
+    shift 2
+    rm -f run.ck
+    command_line="balloon-sim $* (SIG$signal)"
+    # a shell makes background jobs deaf to SIGINT: env undoes that
+    env --default-signal=INT balloon-sim "$@" --checkpoint run.ck --checkpoint-every 0 >.stdout 2>.stderr &
+    job=$!
+    for wait in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
+        [ -e run.ck ] && break
+        sleep 0.25
+    done
+    kill -s "$signal" $job
+    got=0
+    wait $job || got=$?
+    [ "$got" = "$wanted_exit" ] || fail "exit $got, wanted $wanted_exit"
+    stderr_has 'interrupted at .* s, after [0-9]+ steps; to go on: the same command with --resume run.ck'
+    one_message
+}
+
+stopped INT 130 m.ply $long --log log.tsv
+a_file run.ck
+a_file log.tsv
+stopped TERM 143 m.ply $long
+time=$(sed -n 's/.*interrupted at \([^ ]*\) s.*/\1/p' .stderr)
+end=$(awk "BEGIN { print $time + 1 }")
+expect 0 balloon-sim m.ply --set time.end=$end --set 'balloons[0].pressure=0' --resume run.ck --hash
+hash=$(tail -n 1 .stdout)
+expect 0 balloon-sim m.ply --set time.end=$end --set 'balloons[0].pressure=0' --hash
+[ "$(tail -n 1 .stdout)" = "$hash" ] || fail "another hash than without the interruption"
+only_files m.ply log.tsv run.ck
