@@ -19,15 +19,18 @@ enum status implicit_open(struct sim *sim, struct error *err)
     sim->method = m;
     if (!m)
         return error_no_memory(err, "the integrator");
-    enum status status = sim_jacobian_open(sim, err);
+    m->turned = calloc(sim->part_count, sizeof *m->turned);
+    enum status status = m->turned ? sim_jacobian_open(sim, err) : error_no_memory(err, "the integrator");
     return status ? status : solver_open(sim, &m->solver, err);
 }
 
 void implicit_close(struct sim *sim)
 {
     struct implicit *m = sim->method;
-    if (m)
+    if (m) {
         solver_close(&m->solver);
+        free(m->turned);
+    }
     sim_jacobian_close(sim);
     free(m);
     sim->method = NULL;
@@ -197,6 +200,35 @@ static enum status give_up(struct sim *sim, double dt, struct error *err)
         m->worst * (1 << HALVINGS_MAX) / dt);
 }
 
+static void turning_part(struct sim *sim, const struct sim_part *part, void *context)
+{
+    double(*x)[4] = sim->position, (*start)[4] = sim->scratch[IMPLICIT_START_POSITION];
+    bool turned = false;
+    for (uint32_t e = part->edge_begin; e < part->edge_end; e++) {
+        const uint32_t a = sim->edge_point[e][0], b = sim->edge_point[e][1];
+        double along = 0, squares = 0;
+        for (int i = 0; i < 3; i++) {
+            const double l = start[a][i] - start[b][i];
+            along += l * (x[a][i] - x[b][i]);
+            squares += l * l;
+        }
+        turned |= sim->edge_active[e] && !(along >= -0.1 * squares);
+    }
+    ((bool *)context)[part - sim->parts] = turned;
+}
+
+/* Whether an edge points backwards after a step: equations of long steps have more solutions than the one that is the end of a
+ * way, with triangles inside out and springs through themselves. */
+static bool has_turned(struct sim *sim)
+{
+    struct implicit *m = sim->method;
+    bool turned = false;
+    sim_each_part(sim, turning_part, m->turned);
+    for (size_t i = 0; i < sim->part_count; i++)
+        turned |= m->turned[i];
+    return turned;
+}
+
 enum status implicit_step(struct sim *sim, double dt, bool (*take)(struct sim *sim, double h),
                           struct error *err)
 {
@@ -204,7 +236,7 @@ enum status implicit_step(struct sim *sim, double dt, bool (*take)(struct sim *s
     unsigned place = 0, size = whole;
     while (place < whole) {
         remember_start(sim);
-        if (take(sim, dt * size / whole)) {
+        if (take(sim, dt * size / whole) && (size == 1 || !has_turned(sim))) {
             place += size;
             while (place % (2 * size) == 0 && place < whole)
                 size *= 2; /* what was difficult is over */

@@ -7,7 +7,7 @@
  * exact derivatives; each of its linear systems is solved to a fixed part of its right-hand side (Dembo, Eisenstat and
  * Steihaug, SIAM J. Numer. Anal. 19 (1982) 400), and the scalars follow, without derivatives of theirs. It has converged when
  * what is left is a millionth of the first correction, which is what the step changed: far below the error of the step.
- * A step whose equation it does not solve is taken in halves, and halves of halves; none is accepted that was not solved.
+ * A step whose equation it does not solve, or that turns an edge back to front, is taken in halves, and halves of halves; none is accepted that was not solved.
  */
 #ifndef SIM_IMPLICIT_H
 #define SIM_IMPLICIT_H
@@ -28,6 +28,7 @@ enum {
 /* An implicit integrator's sim->method, its open and its close. Error: STATUS_NO_MEMORY. */
 struct implicit {
     struct solver solver;
+    bool *turned;         /* [part_count] whether an edge has */
     double worst;         /* residual over mass of the point whose equation was furthest from solved, */
     uint32_t worst_point; /* when it was given up last */
 };
