@@ -97,6 +97,7 @@ struct scene {
 extern const char *const scene_integrator_names[]; /* NULL-terminated, like all lists of choices */
 extern const char *const scene_guard_names[];
 extern const char *const scene_stereo_names[];
+enum { SCENE_SYMPLECTIC_EULER }; /* the first of the integrators: the paper's */
 enum scene_guard { SCENE_GUARD_SUBSTEP, SCENE_GUARD_REFUSE, SCENE_GUARD_OFF };
 enum scene_stereo { SCENE_MONO, SCENE_PARALLEL, SCENE_CROSSED };
 

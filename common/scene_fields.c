@@ -4,9 +4,20 @@
 #include <stdint.h>
 #include <string.h>
 
-const char *const scene_integrator_names[] = {
-    "symplectic-euler", "explicit-euler",    "verlet", "rk4",  "rkn4", "rk-adaptive",
-    "backward-euler",   "implicit-midpoint", "bdf2",   "xpbd", "cvode-adams", "cvode-bdf", NULL};
+const char *const scene_integrator_names[] = {"symplectic-euler",
+                                              "explicit-euler",
+                                              "verlet",
+                                              "rk4",
+                                              "rkn4",
+                                              "rk-adaptive",
+                                              "backward-euler",
+                                              "implicit-midpoint",
+                                              "bdf2",
+                                              "xpbd",
+                                              "cvode-adams",
+                                              "cvode-bdf",
+                                              "auto",
+                                              NULL};
 const char *const scene_guard_names[] = {"substep", "refuse", "off", NULL};
 const char *const scene_stereo_names[] = {"mono", "parallel", "crossed", NULL};
 

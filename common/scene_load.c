@@ -226,6 +226,7 @@ enum status scene_from_mesh(const char *mesh_path, struct scene *scene, struct e
     if (!status)
         status = add_balloon(scene, err);
     if (!status) {
+        scene->time.integrator = SCENE_SYMPLECTIC_EULER;
         scene->time.guard = SCENE_GUARD_OFF;
         scene->path = strdup(mesh_path);
         scene->balloons[0].mesh = strdup(mesh_path);

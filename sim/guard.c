@@ -125,8 +125,9 @@ enum status guard_step(struct sim *sim, bool first, struct error *err)
     look(sim);
     if (!first)
         return STATUS_OK;
-    const double parts = guard == SCENE_GUARD_OFF ? 1 : parts_needed(sim);
-    if (parts > 1 && (guard == SCENE_GUARD_REFUSE || !(parts <= GUARD_PARTS_MAX)))
+    const double wanted = fmax(sim->wanted_substeps, 1),
+                 parts = guard == SCENE_GUARD_OFF ? wanted : fmax(parts_needed(sim), wanted);
+    if (parts > wanted && (guard == SCENE_GUARD_REFUSE || !(parts <= GUARD_PARTS_MAX)))
         return refuse(sim, err);
     set_parts(sim, (uint32_t)parts * sim->finer);
     return STATUS_OK;
@@ -147,7 +148,7 @@ void guard_describe(struct sim *sim, char *text, size_t size)
     static const char *const causes[] = {"springs", "dampers", "pressure"};
     const struct guard_memory *memory = &sim->guard->memory;
     const double step = sim->whole_step, stable = guard_stable_step(sim), parts = parts_needed(sim);
-    const char *method = sim->integrator->name;
+    const char *method = sim->acting->name;
     if (!(stable < INFINITY)) {
         snprintf(text, size, "every step is stable for %s", method);
         return;

@@ -12,8 +12,8 @@ struct limits {
 
 static struct limits limits_of(const struct sim *sim)
 {
-    const double w = sim->integrator->oscillation_limit;
-    struct limits l = {.damping = 1 / sim->integrator->decay_limit};
+    const double w = sim->acting->oscillation_limit;
+    struct limits l = {.damping = 1 / sim->acting->decay_limit};
     if (w > 0)
         l.stiffness = 1 / (w * w);
     else

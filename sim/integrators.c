@@ -16,6 +16,7 @@ const struct integrator *const integrators[] = {
     &integrator_xpbd,
     &integrator_cvode_adams,
     &integrator_cvode_bdf,
+    &integrator_auto,
     NULL,
 };
 

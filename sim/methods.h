@@ -16,5 +16,6 @@ extern const struct integrator integrator_backward_euler; /* implicit_methods.c 
 extern const struct integrator integrator_implicit_midpoint;
 extern const struct integrator integrator_bdf2;
 extern const struct integrator integrator_xpbd; /* xpbd.c */
+extern const struct integrator integrator_auto; /* auto.c */
 
 #endif

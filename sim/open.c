@@ -276,6 +276,7 @@ enum status sim_open(struct sim *sim, const struct scene *scene, const struct me
     *sim = (struct sim){
         .scene = scene, .balloon_count = scene->balloon_count, .step = scene->time.step, .finer = 1};
     sim->integrator = integrator_find(scene_integrator_names[scene->time.integrator]);
+    sim->acting = sim->integrator;
     sim->kernels = kernels_find();
     enum status status = build(sim, meshes, workers, err);
     if (status) {

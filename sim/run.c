@@ -1,6 +1,7 @@
 #include "sim/run.h"
 #include "common/command.h"
 #include "common/file.h"
+#include "sim/auto.h"
 #include "sim/guard.h"
 #include "sim/interrupt.h"
 #include "sim/ledger.h"
@@ -19,7 +20,10 @@ struct run {
     struct checkpoint_run past; /* before the run was resumed; all 0 without */
     double first_break;         /* s; -1: nothing has broken */
     double began, kept;         /* now() at the start, and at the last checkpoint */
-    bool said;                  /* what the guard does */
+    struct {
+        bool split;
+        uint64_t choices;
+    } said; /* about methods and steps */
 };
 
 static double now(void)
@@ -29,15 +33,18 @@ static double now(void)
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* Says once that steps are split, and why. */
-static void note_guard(struct run *run)
+/* Says once that steps are split, and why; or each time what has been chosen. */
+static void note_method(struct run *run)
 {
+    struct sim *sim = run->sim;
     char text[256];
-    if (run->said || run->sim->substeps == 1)
-        return;
-    run->said = true;
-    guard_describe(run->sim, text, sizeof text);
-    command_note("%s", text);
+    if (auto_describe(sim, &run->said.choices, text, sizeof text)) {
+        command_note("%s", text);
+    } else if (!run->said.split && sim->substeps > 1 && sim->acting == sim->integrator) {
+        run->said.split = true;
+        guard_describe(sim, text, sizeof text);
+        command_note("%s", text);
+    }
 }
 
 static enum status keep(struct run *run, struct error *err)
@@ -77,7 +84,7 @@ static enum status step(struct run *run, struct error *err)
 {
     struct sim *sim = run->sim;
     enum status status = sim_step(sim, err);
-    note_guard(run);
+    note_method(run);
     if (sim->broken && run->first_break < 0)
         run->first_break = sim->time;
     return status ? status : outputs_show(&run->outputs, sim, err);

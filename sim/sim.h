@@ -95,6 +95,9 @@ struct integrator {
     enum status (*open)(struct sim *sim,
                         struct error *err); /* makes sim->method, all zero before; NULL: nothing to make */
     void (*close)(struct sim *sim);         /* NULL: nothing to free */
+    /* Before each step, `first` where it is the first of one of the scene's: which method acts, and in how many substeps at the
+     * least. NULL: this one, in one. */
+    void (*choose)(struct sim *sim, bool first);
     enum status (*advance)(struct sim *sim, double dt, struct error *err);
     /* What it remembers from step to step, as blocks; returns how many. NULL: nothing. */
     size_t (*blocks)(struct sim *sim, struct sim_block *blocks);
@@ -209,6 +212,8 @@ struct sim {
     } rows;
 
     const struct integrator *integrator;
+    const struct integrator *acting;         /* whose limits hold: what "auto" has chosen, or else the same */
+    uint32_t wanted_substeps;                /* that it has chosen; 0: one is as good as many */
     void *method;                            /* the integrator's own */
     struct sim_jacobian *jacobian;           /* likewise, of implicit methods (jacobian.h) */
     double (*scratch[SIM_VECTORS_MAX])[4];   /* [point_count] the integrator's, as many as it asked for */
@@ -239,7 +244,7 @@ struct sim {
     struct sim_past past; /* for sim_look() */
     struct guard *guard;
     uint64_t
-        evaluations; /* of sim_forces() since sim_open(), also of those for a look; nothing depends on it */
+        evaluations;   /* of sim_forces() since sim_open(), also of those for a look; nothing depends on it */
     uint64_t products; /* of sim_force_product(), likewise */
 
     struct sim_ledger ledger;

@@ -21,7 +21,7 @@ static enum status load(struct sim *sim, const char *path, struct error *err)
     return status;
 }
 
-enum { STEPS = 18 };
+enum { STEPS = 30 };
 
 /* A run that bursts on the way: saved and resumed after each of its steps, it goes on as it did. */
 static void check_resuming(const char *const *changes, unsigned workers)

@@ -15,3 +15,12 @@ expect 0 balloon-sim m.ply $large --set time.guard=substep --check
 stdout_has 'time.step 1 is split in [0-9]+: '
 expect 0 balloon-sim m.ply --set time.step=0.001 --set time.guard=substep --check
 stdout_has ': steps up to 0.[0-9]+ are surely stable'
+
+# Where a scene names no method, trials choose one, and say which and why; whatever the number of threads.
+printf 'time = { step = 0.1; end = 2.0; };\nballoons = ( { mesh = "m.ply"; pressure = 4; } );\n' >s.cfg
+expect 0 balloon-sim s.cfg --hash --threads 1
+stderr_has '^balloon-sim: (symplectic-euler|verlet|rk4|rkn4), [0-9]+ substeps?: stiffness ratio [0-9.]+, error [0-9.e-]+ radii a step, [0-9.]+ evaluations a step$'
+tail -n 1 .stdout >one
+expect 0 balloon-sim s.cfg --hash --threads 3
+tail -n 1 .stdout >three
+same_file one three

@@ -1,0 +1,260 @@
+/*
+ * The method that chooses a method: trials of the present state (trial.h) say which of the candidates, in how many substeps, keeps
+ * its error within time.tolerance for the least work. Work is counted in evaluations of the forces, so that the choice, and with
+ * it every bit of the result, is the same on any machine.
+ *
+ * It chooses before the first step, again after 32, 256, 2048, ... of the scene's steps, since a balloon at rest does not show
+ * what it will be like in motion, whenever the schedule changes something, and when the edges that let go have doubled.
+ */
+#include "sim/auto.h"
+#include "sim/guard.h"
+#include "sim/methods.h"
+#include "sim/trial.h"
+#include "sim/weights.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Cheap ones first: what cannot beat the best so far is not tried. The last two, which solve equations and share what they keep,
+ * are open only where the others would have to split steps in more than STIFF. */
+static const struct integrator *const candidates[] = {
+    &integrator_symplectic_euler, &integrator_verlet, &integrator_rk4, &integrator_rkn4,
+    &integrator_backward_euler,   &integrator_bdf2};
+enum { CANDIDATES = sizeof candidates / sizeof candidates[0], TRIAL_ROWS = 12, STIFF = 6 };
+
+struct auto_method {
+    void *own[CANDIDATES];
+    bool is_open[CANDIDATES];
+    /* What the future depends on; no padding. */
+    struct {
+        uint64_t choices;          /* so far */
+        uint64_t steps;            /* of the scene, taken since it was opened */
+        uint64_t next;             /* of them, before which to choose again */
+        uint64_t broken;           /* edges, at the last choice */
+        uint64_t change;           /* of the schedule, that was to come then */
+        uint64_t candidate;        /* that was chosen, and in how many parts */
+        double parts, error, work; /* as its trial had it */
+        double stable;             /* s: by the guard's bound for the first candidate, when it was opened */
+    } memory;
+};
+
+/* Calls open or close of a candidate as if it were the scene's method. */
+static enum status open_candidate(struct sim *sim, int i, struct error *err)
+{
+    struct auto_method *m = sim->method;
+    enum status status = STATUS_OK;
+    m->is_open[i] = true;
+    if (i > 0 && candidates[i]->open && candidates[i]->open == candidates[i - 1]->open) {
+        m->own[i] = m->own[i - 1];
+        return STATUS_OK;
+    }
+    sim->method = NULL;
+    if (candidates[i]->open)
+        status = candidates[i]->open(sim, err);
+    m->own[i] = sim->method;
+    sim->method = m;
+    return status;
+}
+
+static void close(struct sim *sim)
+{
+    struct auto_method *m = sim->method;
+    for (int i = 0; i < CANDIDATES && m; i++)
+        if (m->is_open[i] && candidates[i]->close && (i == 0 || m->own[i] != m->own[i - 1])) {
+            sim->method = m->own[i];
+            candidates[i]->close(sim);
+        }
+    free(m);
+    sim->method = NULL;
+}
+
+static enum status open(struct sim *sim, struct error *err)
+{
+    enum status status = weights_open(sim, err);
+    sim->method = calloc(1, sizeof(struct auto_method));
+    if (!sim->method)
+        return error_no_memory(err, "the choice of a method");
+    sim->acting = candidates[0];
+    const double stable = guard_stable_step(sim);
+    const bool is_stiff = sim->whole_step > STIFF * stable;
+    ((struct auto_method *)sim->method)->memory.stable = stable;
+    for (int i = 0; i < CANDIDATES && !status; i++)
+        if (is_stiff || !(candidates[i]->flags & INTEGRATOR_IMPLICIT))
+            status = open_candidate(sim, i, err);
+    return status;
+}
+
+/* The fewest parts that are surely stable for a candidate, from the bound for the one that acts: what both terms of the bound
+ * (guard.h) allow is in proportion to the limits. */
+static double fewest_parts(struct sim *sim, int i)
+{
+    const struct integrator *to = candidates[i];
+    if (isinf(to->oscillation_limit))
+        return 1;
+    if (isinf(sim->acting->oscillation_limit)) {
+        sim->acting = to;
+        guard_outdated(sim);
+    }
+    const double larger = fmin(to->oscillation_limit / sim->acting->oscillation_limit,
+                               to->decay_limit / sim->acting->decay_limit);
+    return fmax(ceil(sim->whole_step / (guard_stable_step(sim) * larger) * (1 - 1e-12)), 1);
+}
+
+/* A candidate in a number of parts, with what its trial said, or before that with the least work that it can take. */
+struct option {
+    int candidate;
+    double parts;
+    struct trial_result result;
+};
+
+static struct option untried(int candidate, double parts)
+{
+    const double evaluations = candidates[candidate]->evaluations;
+    const double least = evaluations > 0 ? evaluations
+                                         : 10; /* two equations with derivatives, at the least */
+    return (struct option){candidate, parts, {INFINITY, parts <= GUARD_PARTS_MAX ? least * parts : INFINITY}};
+}
+
+/* How many of the scene's steps a trial takes: four, or fewer where they are split in many parts. */
+static uint32_t trial_steps(double parts)
+{
+    return (uint32_t)fmax(fmin(4, 1000 / parts), 1);
+}
+
+static void try_option(struct sim *sim, struct option *option)
+{
+    const struct auto_method *m = sim->method;
+    option->result = trial_run(sim, candidates[option->candidate], m->own[option->candidate],
+                               (uint32_t)option->parts, trial_steps(option->parts), TRIAL_ROWS);
+}
+
+/* In how many more parts it would keep the tolerance, by its order. */
+static struct option split_further(const struct option *option, double tolerance, double most)
+{
+    const double missing = pow(option->result.error / tolerance, 1.0 / candidates[option->candidate]->order);
+    const double parts = ceil(option->parts * fmin(fmax(1.1 * missing, 1.25), 8));
+    return untried(option->candidate, parts <= most ? parts : INFINITY);
+}
+
+/* Tries what promises to be cheapest until that keeps the tolerance; what cannot be cheaper than another that does is never
+ * tried. A burst is not smooth, and no split brings it within any tolerance: where nothing does in PARTS_MORE times the parts that are
+ * stable, it is what came nearest. */
+static struct option find_best(struct sim *sim)
+{
+    enum { TRIALS_MAX = 30, PARTS_MORE = 64 };
+    const struct auto_method *m = sim->method;
+    const double tolerance = sim->scene->time.tolerance;
+    struct option next[CANDIDATES], nearest = {.parts = 1, .result = {INFINITY, INFINITY}};
+    double most[CANDIDATES];
+    for (int i = 0; i < CANDIDATES; i++) {
+        next[i] = untried(i, m->is_open[i] ? fewest_parts(sim, i) : INFINITY);
+        most[i] = PARTS_MORE * next[i].parts;
+    }
+    for (int trials = 0; trials < TRIALS_MAX; trials++) {
+        struct option *cheapest = &next[0];
+        for (int i = 1; i < CANDIDATES; i++)
+            if (next[i].result.work < cheapest->result.work)
+                cheapest = &next[i];
+        if (isinf(cheapest->result.work) || cheapest->result.error <= tolerance)
+            return isinf(cheapest->result.work) ? nearest : *cheapest;
+        try_option(sim, cheapest);
+        if (cheapest->result.error < nearest.result.error)
+            nearest = *cheapest;
+        if (!(cheapest->result.error <= tolerance))
+            *cheapest = split_further(cheapest, tolerance, most[cheapest->candidate]);
+    }
+    return nearest;
+}
+
+static bool is_due(const struct sim *sim)
+{
+    const struct auto_method *m = sim->method;
+    return m->memory.steps >= m->memory.next || sim->next_change != m->memory.change ||
+           sim->broken > 2 * m->memory.broken + sim->edge_count / 100;
+}
+
+static void take(struct sim *sim, const struct option *option)
+{
+    struct auto_method *m = sim->method;
+    const bool another = m->memory.candidate != (uint64_t)option->candidate;
+    if (m->memory.choices == 0 || another || m->memory.parts != option->parts)
+        m->memory.choices++;
+    sim->changed |= another;
+    m->memory.candidate = (uint64_t)option->candidate;
+    m->memory.parts = option->parts;
+    m->memory.error = option->result.error;
+    m->memory.work = option->result.work;
+    m->memory.broken = sim->broken;
+    m->memory.change = sim->next_change;
+    if (m->memory.steps >= m->memory.next)
+        m->memory.next = m->memory.next ? 8 * m->memory.next : 32;
+}
+
+/* sim->acting and wanted_substeps follow from what is remembered: also where that comes out of a file. */
+static void choose(struct sim *sim, bool first)
+{
+    struct auto_method *m = sim->method;
+    sim->acting = candidates[m->memory.candidate];
+    if (first && is_due(sim)) {
+        const struct option best = find_best(sim);
+        take(sim, &best);
+    }
+    m->memory.steps += first;
+    if (sim->acting != candidates[m->memory.candidate]) {
+        sim->acting = candidates[m->memory.candidate];
+        guard_outdated(sim);
+    }
+    sim->wanted_substeps = (uint32_t)m->memory.parts;
+}
+
+static enum status advance(struct sim *sim, double dt, struct error *err)
+{
+    struct auto_method *m = sim->method;
+    sim->method = m->own[m->memory.candidate];
+    enum status status = candidates[m->memory.candidate]->advance(sim, dt, err);
+    sim->method = m;
+    return status;
+}
+
+static size_t blocks(struct sim *sim, struct sim_block *list)
+{
+    struct auto_method *m = sim->method;
+    size_t count = 0;
+    list[count++] = (struct sim_block){"choice", &m->memory, sizeof m->memory};
+    for (int i = 0; i < CANDIDATES; i++)
+        if (m->is_open[i] && candidates[i]->blocks) {
+            sim->method = m->own[i];
+            count += candidates[i]->blocks(sim, &list[count]);
+        }
+    sim->method = m;
+    return count;
+}
+
+bool auto_describe(const struct sim *sim, uint64_t *choices, char *text, size_t size)
+{
+    const struct auto_method *m = sim->method;
+    if (sim->integrator != &integrator_auto || m->memory.choices == *choices)
+        return false;
+    *choices = m->memory.choices;
+    const double fastest = 2 / m->memory.stable, parts = m->memory.parts;
+    snprintf(text, size,
+             "%s, %.0f substep%s: stiffness ratio %.3g, error %.1g radii a step%s, %.3g evaluations a step",
+             candidates[m->memory.candidate]->name, parts, parts == 1 ? "" : "s",
+             fastest / sim->balloons[0].breathing_rate, m->memory.error,
+             m->memory.error > sim->scene->time.tolerance ? " (no method keeps time.tolerance)" : "",
+             m->memory.work);
+    return true;
+}
+
+/* The limits are those of what it chooses, and the order is that at the least. */
+const struct integrator integrator_auto = {.name = "auto",
+                                           .order = 1,
+                                           .vectors = TRIAL_ROWS + TRIAL_VECTORS,
+                                           .oscillation_limit = INFINITY,
+                                           .decay_limit = INFINITY,
+                                           .open = open,
+                                           .close = close,
+                                           .choose = choose,
+                                           .advance = advance,
+                                           .blocks = blocks,
+                                           .source = "trials of the scene itself"};

@@ -1,0 +1,95 @@
+#include "sim/trial.h"
+#include "sim/implicit.h"
+#include "sim/vectors.h"
+
+#include <math.h>
+
+/* What takes as long as how many evaluations of the forces, on icospheres of 1280 to 20480 triangles, one thread: an evaluation
+ * with the derivatives that an implicit method takes there (5.6 to 6.2), an iteration of its linear solver (3.3 to 3.9), and moving
+ * the points over a step. */
+static const double derivatives_work = 5.7, iteration_work = 3.5, move_work = 0.15;
+
+/* The rows of sim->scratch, from the trial's first on. */
+enum { POSITION, VELOCITY, COARSE };
+
+static void keep(struct sim *sim, int rows)
+{
+    vector_copy(sim, sim->scratch[rows + POSITION], sim->position);
+    vector_copy(sim, sim->scratch[rows + VELOCITY], sim->velocity);
+    for (uint32_t i = 0; i < sim->scalar_count; i++)
+        sim->scalar_scratch[rows][i] = sim->scalar[i];
+}
+
+/* The state as it was; whatever is remembered of other steps is not. */
+static void put_back(struct sim *sim, int rows)
+{
+    vector_copy(sim, sim->position, sim->scratch[rows + POSITION]);
+    vector_copy(sim, sim->velocity, sim->scratch[rows + VELOCITY]);
+    for (uint32_t i = 0; i < sim->scalar_count; i++)
+        sim->scalar[i] = sim->scalar_scratch[rows][i];
+    sim->changed = true;
+}
+
+/* False: the method gave up. */
+static bool advance_by(struct sim *sim, const struct integrator *method, uint32_t parts, uint32_t steps)
+{
+    struct error ignored = {0};
+    const double dt = sim->whole_step / parts;
+    for (uint64_t i = 0; i < (uint64_t)parts * steps; i++) {
+        if (method->advance(sim, dt, &ignored))
+            return false;
+        sim->changed = false;
+    }
+    return true;
+}
+
+static uint64_t iterations_of(const struct sim *sim, const struct integrator *method)
+{
+    return method->flags & INTEGRATOR_IMPLICIT ? ((const struct implicit *)sim->method)->solver.iterations
+                                               : 0;
+}
+
+/* RMS distance of the points from where they were at the end of the run before, each in its balloon's radii. */
+static double distance(const struct sim *sim, double (*coarse)[4])
+{
+    double sum = 0;
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++) {
+        double own = 0;
+        for (uint32_t p = b->point_begin; p < b->point_end; p++)
+            for (int i = 0; i < 3; i++) {
+                const double d = sim->position[p][i] - coarse[p][i];
+                own += d * d;
+            }
+        sum += b->radius > 0 ? own / (b->radius * b->radius) : own;
+    }
+    return sqrt(sum / sim->point_count);
+}
+
+struct trial_result trial_run(struct sim *sim, const struct integrator *method, void *own, uint32_t parts,
+                              uint32_t steps, int rows)
+{
+    void *const before = sim->method;
+    struct trial_result result = {.error = INFINITY};
+    sim->method = own;
+    keep(sim, rows);
+    sim->changed = true;
+    const uint64_t evaluations = sim->evaluations, iterations = iterations_of(sim, method);
+    bool good = advance_by(sim, method, parts, steps);
+    const double each = method->flags & INTEGRATOR_IMPLICIT ? derivatives_work : 1;
+    result.work = move_work * parts + (each * (double)(sim->evaluations - evaluations) +
+                                       iteration_work * (double)(iterations_of(sim, method) - iterations)) /
+                                          steps;
+    if (good) {
+        vector_copy(sim, sim->scratch[rows + COARSE], sim->position);
+        put_back(sim, rows);
+        good = advance_by(sim, method, 2 * parts, steps);
+    }
+    if (good) {
+        const double error = distance(sim, sim->scratch[rows + COARSE]) / steps /
+                             (1 - ldexp(1, -method->order));
+        result.error = isfinite(error) ? error : INFINITY;
+    }
+    put_back(sim, rows);
+    sim->method = before;
+    return result;
+}

@@ -1,0 +1,135 @@
+/* The method that chooses a method: as accurate as asked, no dearer than it must be, and the same everywhere. */
+#include "hard.h"
+#include "sim/auto.h"
+
+#define AUTO(...) HARD("time.integrator=auto", "balloons[0].pressure=4" __VA_OPT__(, ) __VA_ARGS__)
+
+static void open_auto(struct balloon *b, const char *tolerance)
+{
+    open_balloon(b, 2, AUTO(tolerance));
+}
+
+/* RMS distance of the points after a second from where RK4 puts them in 25 times as many steps, in radii. */
+static double error_after_a_second(const char *tolerance, uint64_t *evaluations)
+{
+    struct balloon b, reference;
+    double sum = 0;
+    open_auto(&b, tolerance);
+    while (!sim_at_end(&b.sim) && b.sim.time < 1 - 1e-9)
+        steps(&b, 1);
+    *evaluations = b.sim.evaluations;
+    open_balloon(&reference, 2, HARD("time.integrator=rk4", "balloons[0].pressure=4", "time.step=0.001"));
+    steps(&reference, 1000);
+    for (uint32_t p = 0; p < b.sim.point_count; p++) {
+        double d[3];
+        vec3_sub(b.sim.position[p], reference.sim.position[p], d);
+        sum += vec3_dot(d, d);
+    }
+    sum /= b.sim.point_count;
+    close_balloon(&b);
+    close_balloon(&reference);
+    return sqrt(sum) / 45;
+}
+
+/* Forty steps that each err by the tolerance at most err by forty times it, where errors do not grow by themselves; damped as this
+ * balloon is, they do not. */
+static void forty_steps_err_by_forty_tolerances_at_most(void **state)
+{
+    (void)state;
+    static const char *const tolerances[] = {"time.tolerance=1e-3", "time.tolerance=1e-5",
+                                             "time.tolerance=1e-8"};
+    const double allowed[] = {40e-3, 40e-5, 40e-8};
+    uint64_t work[3];
+    for (int i = 0; i < 3; i++)
+        assert_true(error_after_a_second(tolerances[i], &work[i]) < allowed[i]);
+    assert_true(work[0] < work[2]);
+}
+
+static void it_says_what_it_has_chosen_and_why(void **state)
+{
+    (void)state;
+    struct balloon b;
+    char text[256] = "";
+    uint64_t choices = 0;
+    open_auto(&b, "time.tolerance=1e-3");
+    steps(&b, 1);
+    assert_true(auto_describe(&b.sim, &choices, text, sizeof text));
+    assert_non_null(strstr(text, "substep"));
+    assert_non_null(strstr(text, "stiffness ratio"));
+    assert_false(auto_describe(&b.sim, &choices, text, sizeof text)); /* nothing new */
+    close_balloon(&b);
+
+    open_balloon(&b, 2, HARD());
+    choices = 0;
+    steps(&b, 1);
+    assert_false(auto_describe(&b.sim, &choices, text, sizeof text));
+    close_balloon(&b);
+}
+
+static void it_chooses_again_when_the_schedule_stiffens_the_springs(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 2, AUTO("schedule[0].at=0.1", "schedule[0].spring_factor=400"));
+    steps(&b, 1);
+    const uint32_t before = b.sim.substeps;
+    while (b.sim.time < 0.2)
+        steps(&b, 1);
+    assert_true(b.sim.substeps > 3 * before);
+    close_balloon(&b);
+}
+
+/* Work is counted, not timed: the choice cannot depend on who works, nor on what else the machine does. */
+static void the_choice_is_the_same_for_any_number_of_threads(void **state)
+{
+    (void)state;
+    static const unsigned workers[] = {2, 3, 7, 16};
+    struct error err = {0};
+    struct balloon one;
+    open_balloon(&one, 2, SETTINGS("time.guard=substep", "time.integrator=auto", "balloons[0].pressure=250"));
+    steps(&one, 100);
+    assert_true(one.sim.broken > 10);
+    for (size_t i = 0; i < sizeof workers / sizeof workers[0]; i++) {
+        struct sim sim;
+        assert_ok(sim_open(&sim, &one.scene, &one.mesh, workers[i], &err), &err);
+        for (int step = 0; step < 100; step++)
+            assert_ok(sim_step(&sim, &err), &err);
+        assert_true(sim_hash(&sim) == sim_hash(&one.sim));
+        sim_clear(&sim);
+    }
+    close_balloon(&one);
+}
+
+/* What it chose, run by its own name in as many steps, moves the points to the same bits: the trials leave nothing behind. */
+static void trials_leave_no_trace(void **state)
+{
+    (void)state;
+    struct balloon b, named;
+    open_auto(&b, "time.tolerance=1e-3");
+    steps(&b, 1);
+    char name[64], step[64];
+    snprintf(name, sizeof name, "time.integrator=%s", b.sim.acting->name);
+    snprintf(step, sizeof step, "time.step=%.17g", b.sim.step);
+    open_balloon(&named, 2, HARD(name, step, "balloons[0].pressure=4"));
+    steps(&named, 1);
+    for (int i = 0; i < 20; i++) {
+        assert_memory_equal(b.sim.position, named.sim.position, b.sim.point_count * sizeof *b.sim.position);
+        assert_memory_equal(b.sim.velocity, named.sim.velocity, b.sim.point_count * sizeof *b.sim.velocity);
+        steps(&b, 1);
+        steps(&named, 1);
+    }
+    close_balloon(&b);
+    close_balloon(&named);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(forty_steps_err_by_forty_tolerances_at_most),
+        cmocka_unit_test(it_says_what_it_has_chosen_and_why),
+        cmocka_unit_test(it_chooses_again_when_the_schedule_stiffens_the_springs),
+        cmocka_unit_test(the_choice_is_the_same_for_any_number_of_threads),
+        cmocka_unit_test(trials_leave_no_trace),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
