@@ -12,12 +12,13 @@
 
 enum {
     BLOCK = 2048, /* points that a worker takes at a time */
-    CURES = 6     /* turns at what is left of narrow angles after the rounds */
+    CURES = 8     /* turns at what is left of narrow angles after the rounds */
 };
 
 /* Edges are kept between these lengths over the mean; the promise is 0.5 to 1.6. */
 #define EDGE_LEAST 0.6
 #define EDGE_MOST  1.45
+#define EDGE_LONG  1.52 /* at the end, where edges were stretched as points settled */
 
 /* Angles that turns at the end begin with: some degrees more than the 25 promised, since points still move. */
 #define ANGLE_WANTED 29
@@ -286,14 +287,17 @@ static bool run(struct relax *x)
         good = good && smooth(x);
         tell(x, round + 1);
     }
-    x->mean = edges_mean(&x->r);
-    for (int turn = 0; turn < CURES && good; turn++) {
-        if (edges_cure(&x->r, x->mean, ANGLE_WANTED, &good) == 0)
-            break;
-        good = good && edges_split(&x->r, 1.5 * x->mean, UINT32_MAX) && smooth(x);
-    }
-    if (good)
+    for (int turn = 0; turn <= CURES && good; turn++) {
+        memset(x->worst, 0, threads_workers(x->settings->pool) * sizeof *x->worst);
         for_points(x, settle_points);
+        x->mean = edges_mean(&x->r);
+        uint32_t points = x->r.point_count;
+        size_t narrow = turn < CURES ? edges_cure(&x->r, x->mean, ANGLE_WANTED, &good) : 0;
+        good = good && (turn == CURES || edges_split(&x->r, EDGE_LONG * x->mean, UINT32_MAX));
+        if (narrow == 0 && x->r.point_count == points)
+            break;
+        good = good && smooth(x);
+    }
     return good;
 }
 

@@ -34,6 +34,17 @@ expect 0 balloon-surface parts.oct --threads 1 -o one.ply
 expect 0 balloon-surface parts.oct --threads 3 --seeds random -o three.ply
 same_file one.ply three.ply
 
+# The demo's sculptures make triangles fit for springs: no angle below 25 degrees, no edge above 1.6 of the mean.
+fit_for_springs()
+{
+    expect 0 balloon-surface "$@" --info
+    stdout_has '^smallest_angle +(2[5-9]|[3-5][0-9])\.'
+    stdout_has '^longest_edge +1\.([0-5]|6000)'
+}
+fit_for_springs "$PROGRAMS/data/dog.oct" --sigma 1 --triangles 6000
+fit_for_springs "$PROGRAMS/data/triangle.oct" --sigma 1.5 --triangles 3000
+fit_for_springs "$PROGRAMS/data/sphere.oct" --fields-per-cube 1 --sigma 0.4 --triangles 3000
+
 # A number of triangles is met.
 for count in 500 3000 50000; do
     expect 0 balloon-surface parts.oct --sigma 1 --triangles $count --info
