@@ -59,7 +59,8 @@ static void each_method_has_its_order(void **state)
             close_balloon(&b);
         }
         const int order = integrator_find(implicit_names[m])->order;
-        print_message("%s: %.3g %.3g %.3g %.3g\n", implicit_names[m], error[0], error[1], error[2], error[3]);
+        print_message("# %s: %.3g %.3g %.3g %.3g\n", implicit_names[m], error[0], error[1], error[2],
+                      error[3]);
         assert_near(log2(error[2] / error[3]), order, 0.2);
     }
     close_balloon(&exact);
@@ -260,7 +261,7 @@ static void steps_beyond_reason_are_solved_or_refused(void **state)
             if (status)
                 assert_refused(status, STATUS_DIVERGED, "diverged at time", &err);
             if (status)
-                print_message("%s, case %zu: %s\n", implicit_names[m], i, err.text);
+                print_message("# %s, case %zu: %s\n", implicit_names[m], i, err.text);
             for (uint32_t p = 0; p < b.sim.point_count && !status; p++)
                 assert_true(isfinite(b.sim.position[p][0] + b.sim.velocity[p][0]));
             close_balloon(&b);
