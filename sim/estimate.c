@@ -1,6 +1,5 @@
 #include "sim/estimate.h"
 #include "common/vec3.h"
-#include "sim/implicit.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -22,12 +21,10 @@ struct estimate {
     bool over;          /* something broke */
 };
 
-/* Evaluations of the forces so far; an iteration of an implicit method's solver takes two products, each about as long. */
+/* So far. A product of the forces' derivatives takes about as long as the forces. */
 static double work_of(const struct sim *sim)
 {
-    const bool implicit = sim->integrator->flags & INTEGRATOR_IMPLICIT;
-    const uint64_t iterations = implicit ? ((const struct implicit *)sim->method)->solver.iterations : 0;
-    return (double)sim->evaluations + 2 * (double)iterations;
+    return (double)sim->evaluations + (double)sim->products;
 }
 
 static double mean_radius(const struct sim *sim)
