@@ -8,8 +8,8 @@ static double energy(struct balloon *b)
     return m.kinetic_energy + m.elastic_energy;
 }
 
-/* Over 20 thousand steps without damping or pressure a symplectic method's energy wavers, but does not drift: the last tenth's
- * worst is no more than twice the first's. */
+/* Over 4 thousand steps without damping or pressure a symplectic method's energy wavers, but does not drift, which would
+ * double its worst error from the first half to the second. */
 static void symplectic_methods_keep_the_energy(void **state)
 {
     (void)state;
@@ -21,13 +21,12 @@ static void symplectic_methods_keep_the_energy(void **state)
         struct balloon b;
         open_moving(&b, quiet, integrators[k]->name, "time.step=0.02");
         const double whole = energy(&b);
-        double worst[10] = {0};
-        for (int tenth = 0; tenth < 10; tenth++)
-            for (int i = 0; i < 40; i++) {
-                steps(&b, 50);
-                worst[tenth] = fmax(worst[tenth], fabs(energy(&b) / whole - 1));
-            }
-        assert_true(worst[9] <= 2 * worst[0] + 1e-12);
+        double worst[2] = {0};
+        for (int i = 0; i < 200; i++) {
+            steps(&b, 20);
+            worst[i / 100] = fmax(worst[i / 100], fabs(energy(&b) / whole - 1));
+        }
+        assert_true(worst[1] <= 1.5 * worst[0] + 1e-12);
         close_balloon(&b);
     }
 }
@@ -122,8 +121,8 @@ static void any_number_of_threads_gives_the_same_bits(void **state)
         struct balloon b;
         uint64_t hash[4];
         /* it bursts on the way */
-        open_moving(&b, SETTINGS("balloons[0].pressure=12", "balloons[0].threshold=1.1", "time.end=0.6"),
-                    integrators[k]->name, "time.step=0.01");
+        open_moving(&b, SETTINGS("balloons[0].pressure=12", "balloons[0].threshold=1.1", "time.end=0.4"),
+                    integrators[k]->name, "time.step=0.02");
         for (int w = 0; w < 4; w++) {
             struct sim sim;
             assert_ok(sim_open(&sim, &b.scene, &b.mesh, workers[w], &err), &err);
