@@ -4,7 +4,7 @@
  * it every bit of the result, is the same on any machine.
  *
  * It chooses before the first step, again after 32, 256, 2048, ... of the scene's steps, since a balloon at rest does not show
- * what it will be like in motion, whenever the schedule changes something, and when the edges that let go have doubled.
+ * what it will be like in motion, whenever the schedule changes something, and when four times as many edges have let go.
  */
 #include "sim/auto.h"
 #include "sim/guard.h"
@@ -115,10 +115,10 @@ static struct option untried(int candidate, double parts)
     return (struct option){candidate, parts, {INFINITY, parts <= GUARD_PARTS_MAX ? least * parts : INFINITY}};
 }
 
-/* How many of the scene's steps a trial takes: four, or fewer where they are split in many parts. */
+/* How many of the scene's steps a trial takes: two, or one where they are split in many parts. */
 static uint32_t trial_steps(double parts)
 {
-    return (uint32_t)fmax(fmin(4, 1000 / parts), 1);
+    return (uint32_t)fmax(fmin(2, 1000 / parts), 1);
 }
 
 static void try_option(struct sim *sim, struct option *option)
@@ -170,7 +170,7 @@ static bool is_due(const struct sim *sim)
 {
     const struct auto_method *m = sim->method;
     return m->memory.steps >= m->memory.next || sim->next_change != m->memory.change ||
-           sim->broken > 2 * m->memory.broken + sim->edge_count / 100;
+           sim->broken > 4 * m->memory.broken + sim->edge_count / 50;
 }
 
 static void take(struct sim *sim, const struct option *option)
