@@ -1,6 +1,8 @@
 #include "sim/effects.h"
 #include "common/array.h"
 
+#include <stdlib.h>
+
 const struct effect *const effects[] = {
     &effect_spring_by_height,
     &effect_rip,
@@ -21,6 +23,16 @@ static size_t list_hooks(struct sim *sim, enum effect_phase phase, struct effect
     return count;
 }
 
+static enum status open_hooks(struct sim *sim, struct error *err)
+{
+    enum status status = STATUS_OK;
+    for (int phase = 0; phase < EFFECT_PHASES; phase++)
+        for (size_t i = 0; i < sim->hook_count[phase] && !status; i++)
+            if (sim->hooks[phase][i].effect->open)
+                status = sim->hooks[phase][i].effect->open(sim, sim->hooks[phase][i].balloon, err);
+    return status;
+}
+
 enum status effects_resolve(struct sim *sim, struct error *err)
 {
     for (enum effect_phase phase = 0; phase < EFFECT_PHASES; phase++) {
@@ -32,11 +44,23 @@ enum status effects_resolve(struct sim *sim, struct error *err)
             return error_no_memory(err, "the effects");
         list_hooks(sim, phase, sim->hooks[phase]);
     }
-    return STATUS_OK;
+    return open_hooks(sim, err);
+}
+
+/* Those that were not opened have nothing to close: what they keep is still empty. */
+void effects_close(struct sim *sim)
+{
+    for (int phase = 0; phase < EFFECT_PHASES; phase++) {
+        for (size_t i = 0; sim->hooks[phase] && i < sim->hook_count[phase]; i++)
+            if (sim->hooks[phase][i].effect->close)
+                sim->hooks[phase][i].effect->close(sim, sim->hooks[phase][i].balloon);
+        free(sim->hooks[phase]);
+    }
 }
 
 void effects_run(struct sim *sim, enum effect_phase phase)
 {
     for (size_t i = 0; i < sim->hook_count[phase]; i++)
-        sim->hooks[phase][i].effect->apply(sim, sim->hooks[phase][i].balloon);
+        if (sim->hooks[phase][i].effect->apply)
+            sim->hooks[phase][i].effect->apply(sim, sim->hooks[phase][i].balloon);
 }

@@ -14,6 +14,7 @@ void sim_clear(struct sim *sim)
 {
     if (sim->integrator && sim->integrator->close)
         sim->integrator->close(sim);
+    effects_close(sim);
     parts_close(sim);
     look_close(sim);
     guard_close(sim);
@@ -44,8 +45,6 @@ void sim_clear(struct sim *sim)
         free(sim->scratch[i]);
         free(sim->scalar_scratch[i]);
     }
-    for (int phase = 0; phase < EFFECT_PHASES; phase++)
-        free(sim->hooks[phase]);
     *sim = (struct sim){0};
 }
 
@@ -168,8 +167,12 @@ static enum status fill_balloon(struct sim *sim, struct sim_balloon *b, const st
         place_points(sim, b, mesh);
         make_springs(sim, b, mesh, &places);
         copy_triangles(sim, b, mesh, &places);
-        *b->now = (struct sim_settings){b->scene->spring_factor, b->scene->damping, b->scene->pressure,
-                                        b->scene->threshold * b->mean_rest_length, 0};
+        *b->now = (struct sim_settings){b->scene->spring_factor,
+                                        b->scene->damping,
+                                        b->scene->pressure,
+                                        b->scene->threshold * b->mean_rest_length,
+                                        0,
+                                        {0}};
     }
     free(places.edge);
     free(places.triangle);

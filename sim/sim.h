@@ -26,6 +26,7 @@ struct sim_jacobian;
 struct sim_kernels;
 struct guard;
 struct guard_rows;
+struct membrane;
 struct threads;
 
 /* A piece of the state: bytes that belong to sim. */
@@ -42,11 +43,12 @@ struct sim_balloon {
     uint32_t point_begin, point_end;
     uint32_t edge_begin, edge_end;
     uint32_t triangle_begin, triangle_end;
-    double centre[3];         /* of its points, at rest */
-    double radius;            /* mean distance of its points from that centre, at rest */
-    double mean_rest_length;  /* of its edges */
-    double breathing_rate;    /* 1/s, for errors of speeds (weights.h) */
-    struct sim_settings *now; /* one of sim->settings */
+    double centre[3];          /* of its points, at rest */
+    double radius;             /* mean distance of its points from that centre, at rest */
+    double mean_rest_length;   /* of its edges */
+    double breathing_rate;     /* 1/s, for errors of speeds (weights.h) */
+    struct sim_settings *now;  /* one of sim->settings */
+    struct membrane *membrane; /* what acts in place of the springs (membrane.h); NULL: the springs */
 };
 
 /* What changes about a balloon as a whole while time goes on. */
@@ -54,6 +56,7 @@ struct sim_settings {
     double spring_factor, damping, pressure; /* as the schedule has them now */
     double threshold_length;                 /* at which an edge lets go */
     uint64_t ripped;                         /* 1: the scene's rip has opened */
+    double membrane_range[2];                /* what the guard takes its stiffness for (membrane.h) */
 };
 
 /* A share of one balloon's points: whoever works on it writes to these alone, and adds up what acts on a point in the order
@@ -127,7 +130,11 @@ struct effect {
     const char *name; /* of the scene's block that calls for it */
     enum effect_phase phase;
     bool (*wanted)(const struct scene_balloon *balloon);
-    void (*apply)(struct sim *sim, struct sim_balloon *balloon);
+    /* Makes what the effect keeps for a balloon, when the tables are complete and before any hook; frees it, also where that
+     * failed. NULL: nothing. */
+    enum status (*open)(struct sim *sim, struct sim_balloon *balloon, struct error *err);
+    void (*close)(struct sim *sim, struct sim_balloon *balloon);
+    void (*apply)(struct sim *sim, struct sim_balloon *balloon); /* NULL: nothing that a kernel does not do */
     /* EFFECT_FORCES: adds to df a K dx + b D dv (jacobian.h), the derivatives of its own forces at the current state. NULL:
      * its forces depend on neither positions nor velocities. */
     void (*product)(struct sim *sim, struct sim_balloon *balloon, double a, double (*dx)[4], double b,
@@ -366,8 +373,10 @@ enum status look_open(struct sim *sim, struct error *err);
 void look_close(struct sim *sim);
 void look_remember(struct sim *sim);
 
-/* Fills sim->hooks with what the scene calls for (STATUS_NO_MEMORY); runs the hooks of one phase. */
+/* Fills sim->hooks with what the scene calls for and opens it (STATUS_NO_MEMORY, or what an effect's open says); closes it; runs
+ * the hooks of one phase. */
 enum status effects_resolve(struct sim *sim, struct error *err);
+void effects_close(struct sim *sim);
 void effects_run(struct sim *sim, enum effect_phase phase);
 
 #endif
