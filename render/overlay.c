@@ -182,12 +182,24 @@ static enum status add_text(struct overlay *overlay, const struct render_text *t
     return STATUS_OK;
 }
 
+static enum status add_boxes(struct overlay *overlay, const struct render_scene *scene, struct error *err)
+{
+    if (!ARRAY_RESERVE(&overlay->text, 4 * scene->box_count))
+        return error_no_memory(err, "the boxes to draw");
+    for (const struct render_box *box = scene->boxes; box < scene->boxes + scene->box_count; box++)
+        add_rectangle(overlay, (const int[4]){box->x, box->y, box->width, box->height}, 1, 0, 0,
+                      (const float[4]){box->colour[0], box->colour[1], box->colour[2], box->opacity});
+    return STATUS_OK;
+}
+
 enum status overlay_upload(struct overlay *overlay, const struct gl *gl, struct quads *quads,
                            const struct render_view *view, const struct render_scene *scene,
                            struct error *err)
 {
     enum status status = fill_lines(overlay, view, scene, err);
     overlay->text.count = 0;
+    if (!status)
+        status = add_boxes(overlay, scene, err);
     for (size_t i = 0; i < scene->text_count && !status; i++)
         status = add_text(overlay, &scene->texts[i], err);
     size_t most = overlay->lines.count > overlay->text.count ? overlay->lines.count : overlay->text.count;

@@ -65,6 +65,7 @@ struct render_skin {
 struct render_solid; /* solid.h */
 struct render_line;  /* overlay.h */
 struct render_text;
+struct render_box;
 struct window; /* window.h */
 
 /* All that a picture shows. Everything is borrowed for the call; `{0}` is an empty picture. */
@@ -76,6 +77,8 @@ struct render_scene {
     bool smooth_light;                /* its faces are lit by their normals, not by their sides */
     const struct render_line *lines;
     size_t line_count;
+    const struct render_box *boxes; /* in this order, below the texts */
+    size_t box_count;
     const struct render_text *texts;
     size_t text_count;
 };

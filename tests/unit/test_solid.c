@@ -319,6 +319,31 @@ static void test_a_box_dims_what_is_behind_its_text(void **state)
     image_clear(&image);
 }
 
+static void test_a_box_covers_its_pixels_in_both_eyes_and_lies_below_text(void **state)
+{
+    (void)state;
+    struct render_view view = square_view();
+    view.stereo = RENDER_PARALLEL;
+    const struct render_box box = {
+        .x = 10, .y = 40, .width = 30, .height = 20, .colour = {0.6f, 0, 0}, .opacity = 1};
+    const struct render_text text = {.text = "#", .x = 12, .y = 42, .scale = 2, .colour = {0, 0.6f, 0}};
+    struct image image = drawn(
+        &view, &(struct render_scene){.boxes = &box, .box_count = 1, .texts = &text, .text_count = 1});
+    for (int left = 0; left <= 100; left += 100) {
+        int red = 0, green = 0;
+        for (int y = 40; y < 60; y++)
+            for (int x = 10; x < 40; x++) {
+                red += is_red(pixel(&image, left + x, y));
+                green += is_green(pixel(&image, left + x, y));
+            }
+        assert_true(green > 20);
+        assert_int_equal(red + green, 30 * 20);
+        assert_false(is_red(pixel(&image, left + 9, 50)) || is_red(pixel(&image, left + 40, 50)));
+        assert_false(is_red(pixel(&image, left + 20, 39)) || is_red(pixel(&image, left + 20, 60)));
+    }
+    image_clear(&image);
+}
+
 static void test_each_eye_carries_the_text(void **state)
 {
     (void)state;
@@ -360,6 +385,7 @@ int main(void)
         cmocka_unit_test(test_a_line_without_an_end_is_refused),
         cmocka_unit_test(test_letters_stand_where_they_are_put),
         cmocka_unit_test(test_a_box_dims_what_is_behind_its_text),
+        cmocka_unit_test(test_a_box_covers_its_pixels_in_both_eyes_and_lies_below_text),
         cmocka_unit_test(test_each_eye_carries_the_text),
     };
     return cmocka_run_group_tests(tests, open_renderer, close_renderer);
