@@ -9,13 +9,20 @@ const struct effect *const effects[] = {
     NULL,
 };
 
+static bool is_wanted(const struct sim *sim, const struct effect *effect, const struct sim_balloon *balloon)
+{
+    if (effect->scene_wanted)
+        return balloon == sim->balloons && effect->scene_wanted(sim->scene);
+    return effect->wanted(balloon->scene);
+}
+
 /* Counts the hooks of a phase, and stores them where there is an array to store them in. */
 static size_t list_hooks(struct sim *sim, enum effect_phase phase, struct effect_hook *hooks)
 {
     size_t count = 0;
     for (const struct effect *const *effect = effects; *effect; effect++)
         for (struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
-            if ((*effect)->phase == phase && (*effect)->wanted(b->scene)) {
+            if ((*effect)->phase == phase && is_wanted(sim, *effect, b)) {
                 if (hooks)
                     hooks[count] = (struct effect_hook){*effect, b};
                 count++;
@@ -58,9 +65,46 @@ void effects_close(struct sim *sim)
     }
 }
 
-void effects_run(struct sim *sim, enum effect_phase phase)
+static void apply(struct sim *sim, enum effect_phase phase)
 {
     for (size_t i = 0; i < sim->hook_count[phase]; i++)
         if (sim->hooks[phase][i].effect->apply)
             sim->hooks[phase][i].effect->apply(sim, sim->hooks[phase][i].balloon);
+}
+
+void effects_run(struct sim *sim, enum effect_phase phase)
+{
+    apply(sim, phase);
+    for (size_t i = 0; phase == EFFECT_AFTER_STEP && i < sim->hook_count[EFFECT_FORCES]; i++)
+        if (sim->hooks[EFFECT_FORCES][i].effect->after)
+            sim->hooks[EFFECT_FORCES][i].effect->after(sim, sim->hooks[EFFECT_FORCES][i].balloon);
+}
+
+size_t effects_blocks(struct sim *sim, struct sim_block *blocks)
+{
+    size_t count = 0;
+    for (int phase = 0; phase < EFFECT_PHASES; phase++)
+        for (size_t i = 0; i < sim->hook_count[phase]; i++)
+            if (sim->hooks[phase][i].effect->blocks)
+                count += sim->hooks[phase][i].effect->blocks(sim, sim->hooks[phase][i].balloon,
+                                                             &blocks[count]);
+    return count;
+}
+
+double effects_energy(struct sim *sim)
+{
+    double energy = 0;
+    for (int phase = 0; phase < EFFECT_PHASES; phase++)
+        for (size_t i = 0; i < sim->hook_count[phase]; i++)
+            if (sim->hooks[phase][i].effect->energy)
+                energy += sim->hooks[phase][i].effect->energy(sim, sim->hooks[phase][i].balloon);
+    return energy;
+}
+
+void effects_power(struct sim *sim, double *dissipated, double *work)
+{
+    for (int phase = 0; phase < EFFECT_PHASES; phase++)
+        for (size_t i = 0; i < sim->hook_count[phase]; i++)
+            if (sim->hooks[phase][i].effect->power)
+                sim->hooks[phase][i].effect->power(sim, sim->hooks[phase][i].balloon, dissipated, work);
 }

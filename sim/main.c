@@ -71,8 +71,12 @@ static void print_effects(const struct scene *scene)
     for (const struct effect *const *effect = effects; *effect; effect++) {
         size_t wanted = 0;
         for (size_t i = 0; i < scene->balloon_count; i++)
-            wanted += (*effect)->wanted(&scene->balloons[i]);
-        if (wanted)
+            wanted += (*effect)->wanted && (*effect)->wanted(&scene->balloons[i]);
+        if ((*effect)->scene_wanted)
+            printf((*effect)->scene_wanted(scene) ? "on\t%s\tthe scene has the block (%s)\n"
+                                                  : "off\t%s\tthe scene has no such block\n",
+                   (*effect)->name, (*effect)->source);
+        else if (wanted)
             printf("on\t%s\t%zu of %zu balloons have the block (%s)\n", (*effect)->name, wanted,
                    scene->balloon_count, (*effect)->source);
         else

@@ -26,6 +26,8 @@ struct sim_jacobian;
 struct sim_kernels;
 struct guard;
 struct guard_rows;
+struct gas;
+struct gas_rims;
 struct membrane;
 struct threads;
 
@@ -35,7 +37,7 @@ struct sim_block {
     void *data;
     size_t size; /* bytes */
 };
-enum { SIM_BLOCKS_MAX = 64, SIM_VECTORS_MAX = 16 };
+enum { SIM_BLOCKS_MAX = 256, SIM_VECTORS_MAX = 16 };
 
 /* One balloon's share of the tables, and the numbers that all its points and edges have in common. */
 struct sim_balloon {
@@ -49,6 +51,8 @@ struct sim_balloon {
     double breathing_rate;     /* 1/s, for errors of speeds (weights.h) */
     struct sim_settings *now;  /* one of sim->settings */
     struct membrane *membrane; /* what acts in place of the springs (membrane.h); NULL: the springs */
+    struct gas *gas;           /* what is sealed in (effect_gas.h); NULL: nothing, the pressure is given */
+    struct gas_rims *rims;     /* of its holes, by whoever cuts the skin; NULL: there are none */
 };
 
 /* What changes about a balloon as a whole while time goes on. */
@@ -129,12 +133,23 @@ enum effect_phase {
 struct effect {
     const char *name; /* of the scene's block that calls for it */
     enum effect_phase phase;
+    /* One of them: whether a balloon's block calls for it, which makes a hook a balloon; or the scene's, which makes one hook whose
+     * balloon is the first. */
     bool (*wanted)(const struct scene_balloon *balloon);
+    bool (*scene_wanted)(const struct scene *scene);
     /* Makes what the effect keeps for a balloon, when the tables are complete and before any hook; frees it, also where that
      * failed. NULL: nothing. */
     enum status (*open)(struct sim *sim, struct sim_balloon *balloon, struct error *err);
     void (*close)(struct sim *sim, struct sim_balloon *balloon);
     void (*apply)(struct sim *sim, struct sim_balloon *balloon); /* NULL: nothing that a kernel does not do */
+    /* EFFECT_FORCES: at the end of each accepted step too. NULL: nothing. */
+    void (*after)(struct sim *sim, struct sim_balloon *balloon);
+    /* What it remembers from step to step beyond sim->scalar, as blocks; returns how many. NULL: nothing. */
+    size_t (*blocks)(struct sim *sim, struct sim_balloon *balloon, struct sim_block *blocks);
+    /* For the ledger: what it holds now; and what it takes a second for good (dissipated) and brings from outside (work), at the
+     * current state, each added. NULL: nothing. */
+    double (*energy)(struct sim *sim, struct sim_balloon *balloon);
+    void (*power)(struct sim *sim, struct sim_balloon *balloon, double *dissipated, double *work);
     /* EFFECT_FORCES: adds to df a K dx + b D dv (jacobian.h), the derivatives of its own forces at the current state. NULL:
      * its forces depend on neither positions nor velocities. */
     void (*product)(struct sim *sim, struct sim_balloon *balloon, double a, double (*dx)[4], double b,
@@ -378,5 +393,10 @@ void look_remember(struct sim *sim);
 enum status effects_resolve(struct sim *sim, struct error *err);
 void effects_close(struct sim *sim);
 void effects_run(struct sim *sim, enum effect_phase phase);
+
+/* Of all effects together (struct effect): their blocks, the energy that they hold, and their powers, which are added. */
+size_t effects_blocks(struct sim *sim, struct sim_block *blocks);
+double effects_energy(struct sim *sim);
+void effects_power(struct sim *sim, double *dissipated, double *work);
 
 #endif

@@ -43,6 +43,7 @@ static size_t state_blocks(struct sim *sim, struct sim_block *blocks)
     for (; count < sizeof own / sizeof own[0]; count++)
         blocks[count] = own[count];
     count += guard_blocks(sim, &blocks[count]);
+    count += effects_blocks(sim, &blocks[count]);
     if (sim->integrator->blocks)
         count += sim->integrator->blocks(sim, &blocks[count]);
     return count;
