@@ -25,6 +25,7 @@ struct sim;
 struct sim_jacobian;
 struct sim_kernels;
 struct guard;
+struct hand;
 struct guard_rows;
 struct gas;
 struct gas_rims;
@@ -265,6 +266,7 @@ struct sim {
     double taken;         /* s: how far the last advance() moved; it comes in as the longest that it may be */
     struct sim_past past; /* for sim_look() */
     struct guard *guard;
+    struct hand *hand; /* that pulls at it (live_hand.h); NULL: none */
     uint64_t
         evaluations;   /* of sim_forces() since sim_open(), also of those for a look; nothing depends on it */
     uint64_t products; /* of sim_force_product(), likewise */

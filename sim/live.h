@@ -1,0 +1,71 @@
+/*
+ * A simulation under the hand, without its picture: it follows the clock, is changed, pricked and pulled between any two steps, and
+ * goes back to what it was.
+ *
+ *     struct live live;
+ *     if (live_open(&live, &sim, 512 << 20, err)) ...           borrows the sim
+ *     if (live_run(&live, seconds_passed, 0.015, err)) ...      again and again; steps for 15 ms at most
+ *     live_turn(&live, LIVE_PRESSURE, 12);                      in between
+ *     live_close(&live);
+ *
+ * "The user can change the time interval or the internal air pressure between any time steps" (paper 3.5).
+ */
+#ifndef SIM_LIVE_H
+#define SIM_LIVE_H
+
+#include "sim/live_hand.h"
+#include "sim/live_past.h"
+
+/* What can be turned. */
+enum live_dial { LIVE_PRESSURE, LIVE_STEP, LIVE_SPRINGS, LIVE_PACE, LIVE_DIALS };
+extern const char *const live_dial_names[LIVE_DIALS];
+
+struct live {
+    struct sim *sim;
+    struct live_past past; /* frames of view.rate */
+    size_t shown; /* the frame that the sim was set back to; past.count - 1 or later: it goes on from there */
+    double due;   /* s: when the next frame is kept */
+    double rest_radius; /* mean distance of all points from their balloons' centres, at rest */
+
+    bool paused;
+    double pace;  /* simulated seconds a second that are wanted */
+    double owed;  /* simulated seconds that the clock is ahead */
+    double speed; /* simulated seconds a second, of late: the pace, where steps keep up with the clock */
+    double rate;  /* steps a second, of late */
+    struct {
+        double seconds, simulated, steps;
+    } window;                    /* what speed and rate are being counted in */
+    double standard[LIVE_DIALS]; /* the dials' values at the start */
+
+    struct hand hand;
+};
+
+/* Begins with a sim as it is, whose first frame is kept. `memory` bytes are for the past. It runs at the clock's pace, or, where the scene
+ * is filmed in slow motion (view.playback under a quarter of view.rate), at the film's. Error: STATUS_NO_MEMORY; then there is nothing to close. */
+enum status live_open(struct live *live, struct sim *sim, size_t memory, struct error *err);
+void live_close(struct live *live); /* also of {0} */
+
+/* So many seconds have passed: unless paused, takes the steps that are due by then, for `budget` seconds at most and one at least when one is due. What
+ * does not get done in that time is not made up for. Errors: those of sim_step(); then it is paused, and the state is as it was left. */
+enum status live_run(struct live *live, double seconds, double budget, struct error *err);
+
+/* One step, also while paused. Errors as above. */
+enum status live_step(struct live *live, struct error *err);
+
+/* A dial's value, of the first balloon; sets it, for all, limited to the scene's range. The pace is 1e-6 to 1e6. */
+double live_value(const struct live *live, enum live_dial dial);
+void live_turn(struct live *live, enum live_dial dial, double value);
+
+/* Shows frame i of the past, paused. What came after it stays until the next step, from there, is taken. */
+void live_show(struct live *live, size_t i);
+
+/* As it was at the start, and on. */
+void live_restart(struct live *live);
+
+/* Mean distance of the points that carry skin from their mean, over that at rest: the stretch that the plot shows. */
+double live_stretch(const struct live *live);
+
+/* Breaks the skin where it is hit. */
+void live_prick(struct live *live, const struct hand_hit *hit);
+
+#endif
