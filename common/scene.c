@@ -1,4 +1,4 @@
-#include "common/scene.h"
+#include "common/scene_checks.h"
 #include "common/scene_fields.h"
 
 #include <stdlib.h>
@@ -93,6 +93,10 @@ enum status scene_check(struct scene *scene, struct error *err)
         enum status status = check_profile(scene, i, err);
         if (!status)
             status = check_rip(scene, i, err);
+        if (!status)
+            status = scene_check_gas(scene, i, err);
+        if (!status)
+            status = scene_check_places(scene, i, err);
         if (status)
             return status;
     }

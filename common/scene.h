@@ -45,17 +45,66 @@ struct scene_profile {
     size_t count;
 };
 
+/* Of every block that calls for an effect: whether it is there, and its line in the file (0: it came by scene_set). */
 struct scene_spring_by_height {
     bool on;
+    unsigned line;
     struct scene_profile profile; /* height, 0 lowest to 1 highest -> factor */
 };
 
 struct scene_rip {
     bool on;
+    unsigned line;
     double at, stretch;  /* opens once both are reached */
     double place[3];     /* direction from the balloon's centre */
     double direction[3]; /* of the cut, as seen there */
     double length;       /* of the cut, in mean radii */
+};
+
+struct scene_gas {
+    bool on;
+    unsigned line;
+    double ambient, fill; /* force/length^2; over what fills the rest volume */
+    int process;          /* enum scene_process */
+    double gamma, density, discharge;
+    double pump, pump_until; /* fills a second; a fill */
+    double leak;             /* volume a second and gauge pressure */
+    double neck, neck_at;    /* area; s */
+    double neck_place[3];    /* direction from the balloon's centre */
+};
+
+struct scene_tube {
+    bool on;
+    unsigned line;
+    int to;
+    double area, discharge;
+};
+
+struct scene_pins {
+    bool on;
+    unsigned line;
+    double place[3], reach; /* direction from the balloon's centre; degrees */
+    double until;           /* s */
+};
+
+struct scene_string {
+    bool on;
+    unsigned line;
+    double place[3], reach; /* likewise */
+    double to[3], slack;    /* in radii from the balloon's centre; over the first distance */
+    double stiffness, damping, weight;
+};
+
+struct scene_gravity {
+    bool on;
+    unsigned line;
+    double acceleration[3], air_density;
+};
+
+struct scene_drag {
+    bool on;
+    unsigned line;
+    double air_density, coefficient, wind[3];
 };
 
 struct scene_balloon {
@@ -64,11 +113,17 @@ struct scene_balloon {
     double position[3]; /* of that centre */
     double point_mass, spring, spring_factor, damping;
     double threshold;          /* an edge lets go at this length over the mean rest length */
-    double pressure;           /* force on each point */
+    double pressure;           /* force on each point, or on each unit of area */
+    int pressure_on;           /* enum scene_pressure_on */
+    bool pressure_given;       /* somebody wrote it down */
     double colour[3];          /* sRGB, 0 to 1 */
     double opacity, shininess; /* at rest */
     struct scene_spring_by_height spring_by_height;
     struct scene_rip rip;
+    struct scene_gas gas;
+    struct scene_tube tube;
+    struct scene_pins pins;
+    struct scene_string string;
 };
 
 enum { SCENE_CHANGES_MAX = 8 };
@@ -88,6 +143,8 @@ struct scene {
     char *path; /* of the file, for messages; NULL without one */
     struct scene_time time;
     struct scene_view view;
+    struct scene_gravity gravity;
+    struct scene_drag drag;
     struct scene_balloon *balloons; /* [balloon_count] */
     size_t balloon_count, balloon_capacity;
     struct scene_schedule *schedule; /* [schedule_count], by time once scene_check() has passed */
@@ -96,9 +153,13 @@ struct scene {
 
 extern const char *const scene_integrator_names[]; /* NULL-terminated, like all lists of choices */
 extern const char *const scene_guard_names[];
+extern const char *const scene_pressure_on_names[];
+extern const char *const scene_process_names[];
 extern const char *const scene_stereo_names[];
 enum { SCENE_SYMPLECTIC_EULER }; /* the first of the integrators: the paper's */
 enum scene_guard { SCENE_GUARD_SUBSTEP, SCENE_GUARD_REFUSE, SCENE_GUARD_OFF };
+enum scene_pressure_on { SCENE_ON_POINTS, SCENE_ON_AREAS };
+enum scene_process { SCENE_ISOTHERMAL, SCENE_ADIABATIC };
 enum scene_stereo { SCENE_MONO, SCENE_PARALLEL, SCENE_CROSSED };
 
 /* Reads a scene file. *scene must be empty ({0}) and is so again after a failure. Errors: STATUS_FILE, STATUS_INPUT with

@@ -19,6 +19,8 @@ const char *const scene_integrator_names[] = {"symplectic-euler",
                                               "auto",
                                               NULL};
 const char *const scene_guard_names[] = {"substep", "refuse", "off", NULL};
+const char *const scene_pressure_on_names[] = {"points", "areas", NULL};
+const char *const scene_process_names[] = {"isothermal", "adiabatic", NULL};
 const char *const scene_stereo_names[] = {"mono", "parallel", "crossed", NULL};
 
 #define CHOICES_NUMBER(key) NULL
@@ -40,6 +42,12 @@ const char *const scene_stereo_names[] = {"mono", "parallel", "crossed", NULL};
 #define BALLOON_ROW(...)          ROW(scene_balloon, __VA_ARGS__)
 #define SPRING_BY_HEIGHT_ROW(...) ROW(scene_spring_by_height, __VA_ARGS__)
 #define RIP_ROW(...)              ROW(scene_rip, __VA_ARGS__)
+#define GAS_ROW(...)              ROW(scene_gas, __VA_ARGS__)
+#define TUBE_ROW(...)             ROW(scene_tube, __VA_ARGS__)
+#define PINS_ROW(...)             ROW(scene_pins, __VA_ARGS__)
+#define STRING_ROW(...)           ROW(scene_string, __VA_ARGS__)
+#define GRAVITY_ROW(...)          ROW(scene_gravity, __VA_ARGS__)
+#define DRAG_ROW(...)             ROW(scene_drag, __VA_ARGS__)
 #define SCHEDULE_ROW(...)         ROW(scene_schedule, __VA_ARGS__)
 
 static const struct scene_field time_fields[] = {SCENE_TIME_FIELDS(TIME_ROW)};
@@ -48,21 +56,39 @@ static const struct scene_field balloon_fields[] = {SCENE_BALLOON_FIELDS(BALLOON
 static const struct scene_field spring_by_height_fields[] = {
     SCENE_SPRING_BY_HEIGHT_FIELDS(SPRING_BY_HEIGHT_ROW)};
 static const struct scene_field rip_fields[] = {SCENE_RIP_FIELDS(RIP_ROW)};
+static const struct scene_field gas_fields[] = {SCENE_GAS_FIELDS(GAS_ROW)};
+static const struct scene_field tube_fields[] = {SCENE_TUBE_FIELDS(TUBE_ROW)};
+static const struct scene_field pins_fields[] = {SCENE_PINS_FIELDS(PINS_ROW)};
+static const struct scene_field string_fields[] = {SCENE_STRING_FIELDS(STRING_ROW)};
+static const struct scene_field gravity_fields[] = {SCENE_GRAVITY_FIELDS(GRAVITY_ROW)};
+static const struct scene_field drag_fields[] = {SCENE_DRAG_FIELDS(DRAG_ROW)};
 static const struct scene_field schedule_fields[] = {SCENE_SCHEDULE_FIELDS(SCHEDULE_ROW)};
 
 #define FIELDS(list) list, sizeof(list) / sizeof(list)[0]
-#define EFFECT(name) offsetof(struct scene_balloon, name), offsetof(struct scene_##name, on)
+#define CALLED(name) offsetof(struct scene_##name, on), offsetof(struct scene_##name, line)
+#define EFFECT(name) offsetof(struct scene_balloon, name), CALLED(name)
 
 const struct scene_block scene_blocks[] = {
-    {"time", "", false, FIELDS(time_fields), offsetof(struct scene, time), SIZE_MAX,
+    {"time", "", false, FIELDS(time_fields), offsetof(struct scene, time), SIZE_MAX, SIZE_MAX,
      "How time is cut into steps"},
-    {"view", "", false, FIELDS(view_fields), offsetof(struct scene, view), SIZE_MAX,
+    {"view", "", false, FIELDS(view_fields), offsetof(struct scene, view), SIZE_MAX, SIZE_MAX,
      "How the pictures are taken"},
-    {"balloons", "", true, FIELDS(balloon_fields), 0, SIZE_MAX, "A list: one block { ... } a balloon"},
+    {"balloons", "", true, FIELDS(balloon_fields), 0, SIZE_MAX, SIZE_MAX,
+     "A list: one block { ... } a balloon"},
     {"spring_by_height", "balloons", false, FIELDS(spring_by_height_fields), EFFECT(spring_by_height),
      "Spring constants that vary with height, as the skin's thickness does"},
     {"rip", "balloons", false, FIELDS(rip_fields), EFFECT(rip), "An artificial rip"},
-    {"schedule", "", true, FIELDS(schedule_fields), 0, SIZE_MAX,
+    {"gas", "balloons", false, FIELDS(gas_fields), EFFECT(gas),
+     "What is sealed in, in place of a given pressure"},
+    {"tube", "balloons", false, FIELDS(tube_fields), EFFECT(tube), "Joins the gas of two balloons"},
+    {"pins", "balloons", false, FIELDS(pins_fields), EFFECT(pins), "Holds a patch of the skin where it is"},
+    {"string", "balloons", false, FIELDS(string_fields), EFFECT(string),
+     "Ties a place of the skin to another, or to a weight"},
+    {"gravity", "", false, FIELDS(gravity_fields), offsetof(struct scene, gravity), CALLED(gravity),
+     "Makes balloons fall, and light gas rise"},
+    {"drag", "", false, FIELDS(drag_fields), offsetof(struct scene, drag), CALLED(drag),
+     "The air resists what moves in it, or carries it along"},
+    {"schedule", "", true, FIELDS(schedule_fields), 0, SIZE_MAX, SIZE_MAX,
      "A list: one block { at = ...; and the keys that change then }"},
 };
 const size_t scene_block_count = sizeof scene_blocks / sizeof scene_blocks[0];

@@ -48,6 +48,8 @@
     X(threshold, NUMBER, 1, 1e300, "2", "", LIVE,                                                         \
       "an edge lets go at this length over the mean rest length", "paper 4")                              \
     X(pressure, NUMBER, -1e9, 1e9, "10", "force", LIVE, "on each point, along its normal", "paper 3.2")   \
+    X(pressure_on, CHOICE, 0, 0, "\"points\"", "", 0,                                                     \
+      "points: it pushes each alike, along its normal; areas: it is a force/length^2", "paper 3.2")       \
     X(colour, VECTOR, 0, 1, "[0.85, 0.09, 0.12]", "", FREE,                                               \
       "red, green and blue (sRGB) of the skin at rest", "")                                               \
     X(opacity, NUMBER, 0.01, 1, "0.97", "", FREE, "of the skin at rest; it thins with the stretch",       \
@@ -67,6 +69,58 @@
       "middle of the cut: a direction from the balloon's centre", "")                            \
     X(direction, VECTOR, -1e6, 1e6, "[0.0, 1.0, 0.0]", "", 0, "in which the cut runs there", "") \
     X(length, NUMBER, 0, 7, "1", "radii", 0, "of the cut along the skin", "")
+
+#define SCENE_GAS_FIELDS(X)                                                                                  \
+    X(ambient, NUMBER, 1e-12, 1e12, "", "force/length^2", 0, "pressure of the air outside; to be given", "") \
+    X(fill, NUMBER, 1e-6, 1e6, "1", "", 0,                                                                   \
+      "amount at the start, over what fills the rest volume at ambient pressure", "")                        \
+    X(process, CHOICE, 0, 0, "\"isothermal\"", "", 0, "whether heat comes through the skin, or stays",       \
+      "ideal gas")                                                                                           \
+    X(gamma, NUMBER, 1.01, 2, "1.4", "", 0, "ratio of specific heats", "1.4 air, 5/3 helium")                \
+    X(density, NUMBER, 1e-15, 1e9, "1.2", "mass/length^3", 0, "of the gas at ambient pressure",              \
+      "1.2 kg/m^3 air, 0.17 helium, at 20 degrees")                                                          \
+    X(discharge, NUMBER, 0.01, 1, "0.6", "", 0, "width of the jet over that of the opening",                 \
+      "sharp edges: pi/(pi + 2) = .611, Kirchhoff 1869")                                                     \
+    X(pump, NUMBER, 0, 1e9, "0", "1/s", 0, "by how much the fill rises a second", "")                        \
+    X(pump_until, NUMBER, 0, 1e6, "1e6", "", 0, "fill at which the pump stops", "")                          \
+    X(leak, NUMBER, 0, 1e12, "0", "length^5/force s", 0,                                                     \
+      "volume, at ambient pressure, that seeps out a second, over the gauge pressure", "")                   \
+    X(neck, NUMBER, 0, 1e12, "0", "length^2", 0, "area of an open neck", "")                                 \
+    X(neck_at, NUMBER, 0, 1e9, "0", "s", 0, "when the neck opens", "")                                       \
+    X(neck_place, VECTOR, -1e6, 1e6, "[0.0, -1.0, 0.0]", "", 0,                                              \
+      "where the neck is: a direction from the balloon's centre", "")
+
+#define SCENE_TUBE_FIELDS(X)                                                               \
+    X(to, WHOLE, 0, 1e6, "0", "", 0, "number of the balloon at the other end, from 0", "") \
+    X(area, NUMBER, 0, 1e12, "0", "length^2", 0, "of the tube, inside; to be given", "")   \
+    X(discharge, NUMBER, 0.01, 1, "0.6", "", 0, "width of the jet over that of the tube", "")
+
+#define SCENE_GRAVITY_FIELDS(X)                                                                       \
+    X(acceleration, VECTOR, -1e9, 1e9, "[0.0, -9.81, 0.0]", "length/s^2", 0, "of all that falls", "") \
+    X(air_density, NUMBER, 0, 1e9, "0", "mass/length^3", 0,                                           \
+      "of the air, in which gas of another density rises or sinks; 0: none", "1.2 kg/m^3 at 20 degrees")
+
+#define SCENE_DRAG_FIELDS(X)                                                                            \
+    X(air_density, NUMBER, 0, 1e9, "1.2", "mass/length^3", 0, "of the air", "1.2 kg/m^3 at 20 degrees") \
+    X(coefficient, NUMBER, 0, 100, "1.1", "", 0, "of a plate square to the wind", "Hoerner 1965: 1.1")  \
+    X(wind, VECTOR, -1e6, 1e6, "[0.0, 0.0, 0.0]", "length/s", 0, "speed of the air", "")
+
+#define SCENE_PINS_FIELDS(X)                                                                                 \
+    X(place, VECTOR, -1e6, 1e6, "[0.0, -1.0, 0.0]", "", 0,                                                   \
+      "middle of the patch that is held: a direction from the balloon's centre", "")                         \
+    X(reach, NUMBER, 0, 180, "0", "degrees", 0, "how far the patch reaches; 0: its nearest point alone", "") \
+    X(until, NUMBER, 0, 1e9, "1e9", "s", 0, "when they let go", "")
+
+#define SCENE_STRING_FIELDS(X)                                                                      \
+    X(place, VECTOR, -1e6, 1e6, "[0.0, -1.0, 0.0]", "", 0,                                          \
+      "where it is tied on: a direction from the balloon's centre", "")                             \
+    X(reach, NUMBER, 0, 180, "0", "degrees", 0, "how far the tied patch reaches; 0: one point", "") \
+    X(to, VECTOR, -1e6, 1e6, "[0.0, -2.0, 0.0]", "radii", 0,                                        \
+      "the other end, from the balloon's centre: held there, or where the weight hangs", "")        \
+    X(slack, NUMBER, 0, 100, "1", "", 0, "its length over the distance that it spans at first", "") \
+    X(stiffness, NUMBER, 0, 1e12, "1000", "force/length", 0, "against being longer", "")            \
+    X(damping, NUMBER, 0, 1e12, "1", "force s/length", 0, "while it is taut", "")                   \
+    X(weight, NUMBER, 0, 1e9, "0", "mass", 0, "at the other end; 0: that end is held", "")
 
 #define SCENE_SCHEDULE_FIELDS(X)                                                                \
     X(at, NUMBER, 0, 1e9, "0", "s", 0, "when the other keys of this entry change", "paper 3.5") \
@@ -105,8 +159,9 @@ struct scene_block {
     bool list;          /* a list of blocks: balloons, schedule */
     const struct scene_field *fields;
     size_t field_count;
-    size_t offset;    /* of the block in its parent's struct (not of a list) */
-    size_t on_offset; /* of its `bool on` in the block's struct; SIZE_MAX: always on */
+    size_t offset;      /* of the block in its parent's struct (not of a list) */
+    size_t on_offset;   /* of its `bool on` in the block's struct; SIZE_MAX: always on */
+    size_t line_offset; /* of its `unsigned line`, likewise */
     const char *meaning;
 };
 

@@ -54,6 +54,11 @@ static void write_fields(FILE *stream, const char *path, const struct scene_bloc
     }
 }
 
+static bool is_called(const struct scene_block *block, const char *target)
+{
+    return block->on_offset == SIZE_MAX || *(const bool *)(target + block->on_offset);
+}
+
 static void write_balloon(FILE *stream, size_t number, const struct scene_balloon *balloon)
 {
     char path[128];
@@ -62,7 +67,7 @@ static void write_balloon(FILE *stream, size_t number, const struct scene_balloo
     for (size_t i = 0; i < scene_block_count; i++) {
         const struct scene_block *effect = &scene_blocks[i];
         const char *block = (const char *)balloon + effect->offset;
-        if (strcmp(effect->parent, "balloons") || !*(const bool *)(block + effect->on_offset))
+        if (strcmp(effect->parent, "balloons") || !is_called(effect, block))
             continue;
         snprintf(path, sizeof path, "balloons[%zu].%s.", number, effect->name);
         write_fields(stream, path, effect, block);
@@ -83,9 +88,10 @@ void scene_write_keys(const struct scene *scene, FILE *stream)
     for (size_t i = 0; i < scene_block_count; i++) {
         const struct scene_block *block = &scene_blocks[i];
         char path[64];
+        const char *target = (const char *)scene + block->offset;
         snprintf(path, sizeof path, "%s.", block->name);
-        if (!*block->parent && !block->list)
-            write_fields(stream, path, block, (const char *)scene + block->offset);
+        if (!*block->parent && !block->list && is_called(block, target))
+            write_fields(stream, path, block, target);
     }
     for (size_t i = 0; i < scene->balloon_count; i++)
         write_balloon(stream, i, &scene->balloons[i]);

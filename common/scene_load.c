@@ -35,8 +35,11 @@ static enum status set_defaults(const struct scene_block *block, void *target, s
 
 static enum status set_scene_defaults(struct scene *scene, struct error *err)
 {
-    enum status status = set_defaults(scene_find_block("", "time"), &scene->time, err);
-    return status ? status : set_defaults(scene_find_block("", "view"), &scene->view, err);
+    enum status status = STATUS_OK;
+    for (size_t i = 0; i < scene_block_count && !status; i++)
+        if (!*scene_blocks[i].parent && !scene_blocks[i].list)
+            status = set_defaults(&scene_blocks[i], (char *)scene + scene_blocks[i].offset, err);
+    return status;
 }
 
 static enum status add_balloon(struct scene *scene, struct error *err)
@@ -65,10 +68,20 @@ static enum status add_schedule(struct scene *scene, struct error *err)
     return set_defaults(scene_find_block("", "schedule"), entry, err);
 }
 
-static void call_for(const struct scene_block *block, void *target)
+/* group NULL: not by a file. */
+static void call_for(const struct scene_block *block, void *target, const config_setting_t *group)
 {
     if (block->on_offset != SIZE_MAX)
         *(bool *)((char *)target + block->on_offset) = true;
+    if (block->line_offset != SIZE_MAX && group)
+        *(unsigned *)((char *)target + block->line_offset) = config_setting_source_line(group);
+}
+
+/* Whether a pressure was wanted that a scene cannot have. */
+static void note_pressure(const struct scene_block *block, void *target, const char *key)
+{
+    if (!strcmp(block->name, "balloons") && !strcmp(key, "pressure"))
+        ((struct scene_balloon *)target)->pressure_given = true;
 }
 
 /* A key that changes at a time: the step, or a LIVE key of the balloons. */
@@ -108,7 +121,7 @@ static enum status read_block(const struct scene_block *block, void *target, con
 {
     if (!config_setting_is_group(group))
         return scene_refuse(source, group, err, "%s must be a block: { key = value; ... }", block->name);
-    call_for(block, target);
+    call_for(block, target, group);
     for (int i = 0; i < config_setting_length(group); i++) {
         const config_setting_t *value = config_setting_get_elem(group, (unsigned)i);
         enum status status = read_key(block, target, value, config_setting_name(value), source, err);
@@ -122,6 +135,7 @@ static enum status read_key(const struct scene_block *block, void *target, const
                             const char *key, const struct scene_source *source, struct error *err)
 {
     const struct scene_field *field = scene_find_field(block, key);
+    note_pressure(block, target, key);
     if (field)
         return scene_read_value(field, value, source, target, err);
     if (!strcmp(block->name, "schedule"))
@@ -302,7 +316,7 @@ static enum status set_by_path(struct scene *scene, const char *path, const conf
         if (status)
             return status;
         block = inner;
-        call_for(block, target);
+        call_for(block, target, NULL);
         if (!*path)
             return error_set(err, STATUS_INPUT, "--set: %s is a block; set one of its keys: %s.KEY=VALUE",
                              whole, whole);

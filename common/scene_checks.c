@@ -1,0 +1,107 @@
+#include "common/scene_checks.h"
+#include "common/scene_fields.h"
+
+#include <stdarg.h>
+#include <string.h>
+
+enum status scene_contradiction(const struct scene *scene, size_t number, const char *name, unsigned line,
+                                struct error *err, const char *format, ...)
+{
+    char text[256], place[32] = "";
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    if (line > 0)
+        snprintf(place, sizeof place, ":%u", line);
+    return error_set(err, STATUS_INPUT, "%s%s: balloons[%zu].%s: %s", scene->path, place, number, name, text);
+}
+
+static bool changes_pressure(const struct scene_schedule *entry, size_t number)
+{
+    for (size_t i = 0; i < entry->change_count; i++)
+        if (!strcmp(entry->change[i].field->key, "pressure"))
+            return entry->balloon < 0 || (size_t)entry->balloon == number;
+    return false;
+}
+
+static enum status check_gas(const struct scene *scene, size_t number, struct error *err)
+{
+    const struct scene_balloon *b = &scene->balloons[number];
+    const unsigned line = b->gas.line;
+    if (b->gas.ambient == 0)
+        return scene_contradiction(scene, number, "gas", line, err,
+                                   "give ambient, the pressure of the air outside (about 101325 in Pa)");
+    if (b->pressure_given && b->pressure != 0)
+        return scene_contradiction(scene, number, "gas", line, err,
+                                   "the gas makes the pressure, and pressure = %g gives another; leave "
+                                   "out one of the two",
+                                   b->pressure);
+    for (size_t i = 0; i < scene->schedule_count; i++)
+        if (changes_pressure(&scene->schedule[i], number))
+            return scene_contradiction(scene, number, "gas", line, err,
+                                       "the gas makes the pressure, which schedule[%zu] cannot change; "
+                                       "use pump, leak or neck",
+                                       i);
+    return STATUS_OK;
+}
+
+static enum status check_tube(const struct scene *scene, size_t number, struct error *err)
+{
+    const struct scene_balloon *b = &scene->balloons[number];
+    const size_t to = (size_t)b->tube.to;
+    const unsigned line = b->tube.line;
+    if (to >= scene->balloon_count)
+        return scene_contradiction(scene, number, "tube", line, err,
+                                   "leads to balloons[%zu], but the balloons are 0 to %zu", to,
+                                   scene->balloon_count - 1);
+    if (to == number)
+        return scene_contradiction(scene, number, "tube", line, err, "leads back to its own balloon");
+    if (!b->gas.on || !scene->balloons[to].gas.on)
+        return scene_contradiction(scene, number, "tube", line, err,
+                                   "balloons[%zu] has no gas that could flow; give gas = { ... }",
+                                   b->gas.on ? to : number);
+    if (b->tube.area == 0)
+        return scene_contradiction(scene, number, "tube", line, err, "give area, the tube's inside");
+    if (b->gas.process != scene->balloons[to].gas.process || b->gas.gamma != scene->balloons[to].gas.gamma ||
+        b->gas.density != scene->balloons[to].gas.density ||
+        b->gas.ambient != scene->balloons[to].gas.ambient)
+        return scene_contradiction(scene, number, "tube", line, err,
+                                   "joins two kinds of gas; make ambient, process, gamma and density of "
+                                   "both balloons the same");
+    return STATUS_OK;
+}
+
+enum status scene_check_gas(const struct scene *scene, size_t number, struct error *err)
+{
+    const struct scene_balloon *b = &scene->balloons[number];
+    enum status status = b->gas.on ? check_gas(scene, number, err) : STATUS_OK;
+    return status || !b->tube.on ? status : check_tube(scene, number, err);
+}
+
+static bool is_nowhere(const double direction[3])
+{
+    return direction[0] == 0 && direction[1] == 0 && direction[2] == 0;
+}
+
+enum status scene_check_places(const struct scene *scene, size_t number, struct error *err)
+{
+    const struct scene_balloon *b = &scene->balloons[number];
+    const struct {
+        bool on;
+        unsigned line;
+        const char *name, *key;
+        const double *direction;
+    } places[] = {
+        {b->pins.on, b->pins.line, "pins", "place", b->pins.place},
+        {b->string.on, b->string.line, "string", "place", b->string.place},
+        {b->gas.on && b->gas.neck > 0, b->gas.line, "gas", "neck_place", b->gas.neck_place},
+    };
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++)
+        if (places[i].on && is_nowhere(places[i].direction))
+            return scene_contradiction(scene, number, places[i].name, places[i].line, err,
+                                       "%s = [0, 0, 0] names no point; give a direction from the balloon's "
+                                       "centre, such as [0.0, -1.0, 0.0]",
+                                       places[i].key);
+    return STATUS_OK;
+}

@@ -1,0 +1,18 @@
+/* Contradictions between the blocks of a scene, for scene_check(). All return STATUS_INPUT with the block's line, or STATUS_OK. */
+#ifndef COMMON_SCENE_CHECKS_H
+#define COMMON_SCENE_CHECKS_H
+
+#include "common/scene.h"
+
+/* "FILE:LINE: balloons[NUMBER].NAME: ..."; without the line where the block came by scene_set(). */
+enum status scene_contradiction(const struct scene *scene, size_t number, const char *name, unsigned line,
+                                struct error *err, const char *format, ...)
+    __attribute__((format(printf, 6, 7)));
+
+/* Gas and tube of one balloon: what is missing, what cannot be had together, a tube to nowhere. */
+enum status scene_check_gas(const struct scene *scene, size_t number, struct error *err);
+
+/* Directions of pins, string and neck that are none; a weight that nothing pulls. */
+enum status scene_check_places(const struct scene *scene, size_t number, struct error *err);
+
+#endif
