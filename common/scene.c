@@ -11,6 +11,8 @@ void scene_clear(struct scene *scene)
         free(scene->balloons[i].spring_by_height.profile.row);
     }
     free(scene->balloons);
+    free(scene->obstacles);
+    free(scene->needles);
     free(scene->schedule);
     free(scene->path);
     *scene = (struct scene){0};
@@ -106,5 +108,5 @@ enum status scene_check(struct scene *scene, struct error *err)
                              "%s: schedule[%zu].balloon is %d, but the balloons are 0 to %zu", scene->path, i,
                              scene->schedule[i].balloon, scene->balloon_count - 1);
     sort_schedule(scene);
-    return STATUS_OK;
+    return scene_check_surroundings(scene, err);
 }

@@ -126,6 +126,31 @@ struct scene_balloon {
     struct scene_string string;
 };
 
+struct scene_ground {
+    bool on;
+    unsigned line;
+    double height, normal[3], friction, bounce; /* a plane through (0, height, 0) */
+};
+
+/* Something firm that skin cannot enter. */
+struct scene_obstacles {
+    unsigned line;
+    int shape; /* enum scene_shape */
+    double place[3], radius, size[3], friction, bounce;
+};
+
+/* A point that moves, and starts a tear where it meets skin. */
+struct scene_needles {
+    unsigned line;
+    double at, from[3], velocity[3];
+};
+
+struct scene_contact {
+    bool on;
+    unsigned line;
+    double thickness, friction;
+};
+
 enum { SCENE_CHANGES_MAX = 8 };
 
 /* Keys that change between two steps, as the paper's user changes them by hand (3.5). */
@@ -147,6 +172,12 @@ struct scene {
     struct scene_drag drag;
     struct scene_balloon *balloons; /* [balloon_count] */
     size_t balloon_count, balloon_capacity;
+    struct scene_ground ground;
+    struct scene_obstacles *obstacles; /* [obstacles_count] */
+    size_t obstacles_count, obstacles_capacity;
+    struct scene_needles *needles; /* [needles_count] */
+    size_t needles_count, needles_capacity;
+    struct scene_contact contact;
     struct scene_schedule *schedule; /* [schedule_count], by time once scene_check() has passed */
     size_t schedule_count, schedule_capacity;
 };
@@ -156,8 +187,10 @@ extern const char *const scene_guard_names[];
 extern const char *const scene_pressure_on_names[];
 extern const char *const scene_process_names[];
 extern const char *const scene_stereo_names[];
+extern const char *const scene_shape_names[];
 enum { SCENE_SYMPLECTIC_EULER }; /* the first of the integrators: the paper's */
 enum scene_guard { SCENE_GUARD_SUBSTEP, SCENE_GUARD_REFUSE, SCENE_GUARD_OFF };
+enum scene_shape { SCENE_SPHERE, SCENE_BOX };
 enum scene_pressure_on { SCENE_ON_POINTS, SCENE_ON_AREAS };
 enum scene_process { SCENE_ISOTHERMAL, SCENE_ADIABATIC };
 enum scene_stereo { SCENE_MONO, SCENE_PARALLEL, SCENE_CROSSED };

@@ -1,6 +1,7 @@
 #include "common/scene_checks.h"
 #include "common/scene_fields.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <string.h>
 
@@ -103,5 +104,33 @@ enum status scene_check_places(const struct scene *scene, size_t number, struct 
                                        "%s = [0, 0, 0] names no point; give a direction from the balloon's "
                                        "centre, such as [0.0, -1.0, 0.0]",
                                        places[i].key);
+    return STATUS_OK;
+}
+
+/* "FILE:LINE", or the file alone. */
+static void write_place(const struct scene *scene, unsigned line, char *text, size_t size)
+{
+    if (line > 0)
+        snprintf(text, size, "%s:%u", scene->path, line);
+    else
+        snprintf(text, size, "%s", scene->path);
+}
+
+enum status scene_check_surroundings(const struct scene *scene, struct error *err)
+{
+    char place[256];
+    if (scene->ground.on && is_nowhere(scene->ground.normal)) {
+        write_place(scene, scene->ground.line, place, sizeof place);
+        return error_set(err, STATUS_INPUT,
+                         "%s: ground: normal = [0, 0, 0] is no direction; level ground has [0.0, 1.0, 0.0]",
+                         place);
+    }
+    for (size_t i = 0; i < scene->needles_count; i++)
+        if (isnan(scene->needles[i].from[0])) {
+            write_place(scene, scene->needles[i].line, place, sizeof place);
+            return error_set(err, STATUS_INPUT,
+                             "%s: needles[%zu] names no point; give from = [x, y, z], where it is at first",
+                             place, i);
+        }
     return STATUS_OK;
 }

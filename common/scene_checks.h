@@ -15,4 +15,7 @@ enum status scene_check_gas(const struct scene *scene, size_t number, struct err
 /* Directions of pins, string and neck that are none; a weight that nothing pulls. */
 enum status scene_check_places(const struct scene *scene, size_t number, struct error *err);
 
+/* Ground and needles: a slope without direction, a needle that is nowhere. */
+enum status scene_check_surroundings(const struct scene *scene, struct error *err);
+
 #endif

@@ -22,6 +22,7 @@ const char *const scene_guard_names[] = {"substep", "refuse", "off", NULL};
 const char *const scene_pressure_on_names[] = {"points", "areas", NULL};
 const char *const scene_process_names[] = {"isothermal", "adiabatic", NULL};
 const char *const scene_stereo_names[] = {"mono", "parallel", "crossed", NULL};
+const char *const scene_shape_names[] = {"sphere", "box", NULL};
 
 #define CHOICES_NUMBER(key) NULL
 #define CHOICES_WHOLE(key)  NULL
@@ -48,6 +49,10 @@ const char *const scene_stereo_names[] = {"mono", "parallel", "crossed", NULL};
 #define STRING_ROW(...)           ROW(scene_string, __VA_ARGS__)
 #define GRAVITY_ROW(...)          ROW(scene_gravity, __VA_ARGS__)
 #define DRAG_ROW(...)             ROW(scene_drag, __VA_ARGS__)
+#define GROUND_ROW(...)           ROW(scene_ground, __VA_ARGS__)
+#define OBSTACLES_ROW(...)        ROW(scene_obstacles, __VA_ARGS__)
+#define NEEDLES_ROW(...)          ROW(scene_needles, __VA_ARGS__)
+#define CONTACT_ROW(...)          ROW(scene_contact, __VA_ARGS__)
 #define SCHEDULE_ROW(...)         ROW(scene_schedule, __VA_ARGS__)
 
 static const struct scene_field time_fields[] = {SCENE_TIME_FIELDS(TIME_ROW)};
@@ -56,6 +61,10 @@ static const struct scene_field balloon_fields[] = {SCENE_BALLOON_FIELDS(BALLOON
 static const struct scene_field spring_by_height_fields[] = {
     SCENE_SPRING_BY_HEIGHT_FIELDS(SPRING_BY_HEIGHT_ROW)};
 static const struct scene_field rip_fields[] = {SCENE_RIP_FIELDS(RIP_ROW)};
+static const struct scene_field ground_fields[] = {SCENE_GROUND_FIELDS(GROUND_ROW)};
+static const struct scene_field obstacles_fields[] = {SCENE_OBSTACLES_FIELDS(OBSTACLES_ROW)};
+static const struct scene_field needles_fields[] = {SCENE_NEEDLES_FIELDS(NEEDLES_ROW)};
+static const struct scene_field contact_fields[] = {SCENE_CONTACT_FIELDS(CONTACT_ROW)};
 static const struct scene_field gas_fields[] = {SCENE_GAS_FIELDS(GAS_ROW)};
 static const struct scene_field tube_fields[] = {SCENE_TUBE_FIELDS(TUBE_ROW)};
 static const struct scene_field pins_fields[] = {SCENE_PINS_FIELDS(PINS_ROW)};
@@ -88,6 +97,14 @@ const struct scene_block scene_blocks[] = {
      "Makes balloons fall, and light gas rise"},
     {"drag", "", false, FIELDS(drag_fields), offsetof(struct scene, drag), CALLED(drag),
      "The air resists what moves in it, or carries it along"},
+    {"ground", "", false, FIELDS(ground_fields), offsetof(struct scene, ground), CALLED(ground),
+     "A plane that skin cannot pass"},
+    {"obstacles", "", true, FIELDS(obstacles_fields), 0, SIZE_MAX, offsetof(struct scene_obstacles, line),
+     "A list: spheres and boxes that skin cannot enter"},
+    {"needles", "", true, FIELDS(needles_fields), 0, SIZE_MAX, offsetof(struct scene_needles, line),
+     "A list: points that move and start tears where they meet skin"},
+    {"contact", "", false, FIELDS(contact_fields), offsetof(struct scene, contact), CALLED(contact),
+     "Balloons do not pass through each other, nor through themselves"},
     {"schedule", "", true, FIELDS(schedule_fields), 0, SIZE_MAX, SIZE_MAX,
      "A list: one block { at = ...; and the keys that change then }"},
 };

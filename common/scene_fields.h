@@ -70,6 +70,33 @@
     X(direction, VECTOR, -1e6, 1e6, "[0.0, 1.0, 0.0]", "", 0, "in which the cut runs there", "") \
     X(length, NUMBER, 0, 7, "1", "radii", 0, "of the cut along the skin", "")
 
+#define SCENE_GROUND_FIELDS(X)                                                                           \
+    X(height, NUMBER, -1e6, 1e6, "-100", "length", 0, "at which it passes the middle of the scene", "")  \
+    X(normal, VECTOR, -1e6, 1e6, "[0.0, 1.0, 0.0]", "", 0, "out of it: any direction makes a slope", "") \
+    X(friction, NUMBER, 0, 100, "0.5", "", 0,                                                            \
+      "largest force along the ground over that into it: skin sticks on slopes up to that tangent",      \
+      "Coulomb 1785")                                                                                    \
+    X(bounce, NUMBER, 0, 1, "0", "", 0, "speed after a hit over that before", "Newton 1687")
+
+#define SCENE_OBSTACLES_FIELDS(X)                                                                         \
+    X(shape, CHOICE, 0, 0, "\"sphere\"", "", 0, "what stands in the way", "")                             \
+    X(place, VECTOR, -1e6, 1e6, "[0.0, 0.0, 0.0]", "length", 0, "of its middle", "")                      \
+    X(radius, NUMBER, 1e-9, 1e6, "10", "length", 0, "of a sphere", "")                                    \
+    X(size, VECTOR, 1e-9, 1e6, "[20.0, 20.0, 20.0]", "length", 0, "of a box, which stands upright", "")   \
+    X(friction, NUMBER, 0, 100, "0.5", "", 0, "largest force along it over that into it", "Coulomb 1785") \
+    X(bounce, NUMBER, 0, 1, "0", "", 0, "speed after a hit over that before", "Newton 1687")
+
+#define SCENE_NEEDLES_FIELDS(X)                                                             \
+    X(at, NUMBER, 0, 1e9, "0", "s", 0, "it is there from then on", "")                      \
+    X(from, VECTOR, -1e6, 1e6, "", "length", 0, "where its point is then; to be given", "") \
+    X(velocity, VECTOR, -1e9, 1e9, "[0.0, 0.0, 0.0]", "length/s", 0, "of its point", "")
+
+#define SCENE_CONTACT_FIELDS(X)                                                                       \
+    X(thickness, NUMBER, 0, 1e6, "0", "length", 0,                                                    \
+      "how far apart skins are kept; 0: a tenth of the mean edge", "Bridson, Fedkiw & Anderson 2002") \
+    X(friction, NUMBER, 0, 100, "0.3", "", 0, "largest force along the skin over that into it",       \
+      "Coulomb 1785")
+
 #define SCENE_GAS_FIELDS(X)                                                                                  \
     X(ambient, NUMBER, 1e-12, 1e12, "", "force/length^2", 0, "pressure of the air outside; to be given", "") \
     X(fill, NUMBER, 1e-6, 1e6, "1", "", 0,                                                                   \

@@ -2,6 +2,7 @@
 #include "common/scene.h"
 #include "common/scene_fields.h"
 
+#include <stdint.h>
 #include <string.h>
 
 /* Numbers with all their digits. */
@@ -83,6 +84,13 @@ static void write_schedule(FILE *stream, size_t number, const struct scene_sched
         fprintf(stream, "%s%s=%.17g\n", path, entry->change[i].field->key, entry->change[i].value);
 }
 
+static void write_item(FILE *stream, const char *list, size_t number, const void *item)
+{
+    char path[64];
+    snprintf(path, sizeof path, "%s[%zu].", list, number);
+    write_fields(stream, path, scene_find_block("", list), item);
+}
+
 void scene_write_keys(const struct scene *scene, FILE *stream)
 {
     for (size_t i = 0; i < scene_block_count; i++) {
@@ -95,6 +103,10 @@ void scene_write_keys(const struct scene *scene, FILE *stream)
     }
     for (size_t i = 0; i < scene->balloon_count; i++)
         write_balloon(stream, i, &scene->balloons[i]);
+    for (size_t i = 0; i < scene->obstacles_count; i++)
+        write_item(stream, "obstacles", i, &scene->obstacles[i]);
+    for (size_t i = 0; i < scene->needles_count; i++)
+        write_item(stream, "needles", i, &scene->needles[i]);
     for (size_t i = 0; i < scene->schedule_count; i++)
         write_schedule(stream, i, &scene->schedule[i]);
 }

@@ -4,6 +4,7 @@
 #include "common/scene.h"
 #include "common/scene_value.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,30 +43,66 @@ static enum status set_scene_defaults(struct scene *scene, struct error *err)
     return status;
 }
 
-static enum status add_balloon(struct scene *scene, struct error *err)
+/* The lists of blocks: where a scene keeps each. */
+static const struct list {
+    const char *name;
+    size_t items, count, capacity, size;
+} lists[] = {
+#define LIST(name, prefix)                                                                  \
+    {                                                                                       \
+#name, offsetof(struct scene, name), offsetof(struct scene, prefix##_count),        \
+            offsetof(struct scene, prefix##_capacity), sizeof *((struct scene *)NULL)->name \
+    }
+    LIST(balloons, balloon),
+    LIST(schedule, schedule),
+    LIST(obstacles, obstacles),
+    LIST(needles, needles),
+#undef LIST
+};
+
+static const struct list *find_list(const struct scene_block *block)
 {
-    if (scene->balloon_count == scene->balloon_capacity &&
-        !array_grow(&scene->balloons, scene->balloon_count, 1, sizeof *scene->balloons,
-                    &scene->balloon_capacity))
-        return error_no_memory(err, "the balloons");
-    struct scene_balloon *balloon = &scene->balloons[scene->balloon_count++];
-    *balloon = (struct scene_balloon){0};
-    enum status status = set_defaults(scene_find_block("", "balloons"), balloon, err);
+    const struct list *list = lists;
+    while (strcmp(list->name, block->name))
+        list++;
+    return list;
+}
+
+static void *item_of(const struct scene *scene, const struct list *list, size_t index)
+{
+    char *items;
+    memcpy(&items, (const char *)scene + list->items, sizeof items);
+    return items + index * list->size;
+}
+
+static enum status set_effects_defaults(struct scene_balloon *balloon, struct error *err)
+{
+    enum status status = STATUS_OK;
     for (size_t i = 0; i < scene_block_count && !status; i++)
         if (!strcmp(scene_blocks[i].parent, "balloons"))
             status = set_defaults(&scene_blocks[i], (char *)balloon + scene_blocks[i].offset, err);
     return status;
 }
 
-static enum status add_schedule(struct scene *scene, struct error *err)
+/* One more block at the end of its list, with the defaults. */
+static enum status add_item(struct scene *scene, const struct scene_block *block, void **item,
+                            struct error *err)
 {
-    if (scene->schedule_count == scene->schedule_capacity &&
-        !array_grow(&scene->schedule, scene->schedule_count, 1, sizeof *scene->schedule,
-                    &scene->schedule_capacity))
-        return error_no_memory(err, "the schedule");
-    struct scene_schedule *entry = &scene->schedule[scene->schedule_count++];
-    *entry = (struct scene_schedule){0};
-    return set_defaults(scene_find_block("", "schedule"), entry, err);
+    const struct list *list = find_list(block);
+    char *base = (char *)scene;
+    size_t *count = (size_t *)(base + list->count), *capacity = (size_t *)(base + list->capacity);
+    if (*count == *capacity && !array_grow(base + list->items, *count, 1, list->size, capacity))
+        return error_no_memory(err, block->name);
+    *item = item_of(scene, list, (*count)++);
+    memset(*item, 0, list->size);
+    if (!strcmp(block->name, "balloons")) {
+        enum status status = set_effects_defaults(*item, err);
+        if (status)
+            return status;
+    } else if (!strcmp(block->name, "needles")) {
+        ((struct scene_needles *)*item)->from[0] = NAN; /* nobody has said where */
+    }
+    return set_defaults(block, *item, err);
 }
 
 /* group NULL: not by a file. */
@@ -153,14 +190,12 @@ static enum status read_list(const struct scene_block *block, struct scene *scen
     if (!config_setting_is_list(list))
         return scene_refuse(source, list, err, "%s must be a list of blocks: ( { ... }, { ... } )",
                             block->name);
-    bool balloons = !strcmp(block->name, "balloons");
     for (int i = 0; i < config_setting_length(list); i++) {
-        enum status status = balloons ? add_balloon(scene, err) : add_schedule(scene, err);
-        void *target = status     ? NULL
-                       : balloons ? (void *)&scene->balloons[scene->balloon_count - 1]
-                                  : (void *)&scene->schedule[scene->schedule_count - 1];
+        const config_setting_t *group = config_setting_get_elem(list, (unsigned)i);
+        void *target = NULL;
+        enum status status = add_item(scene, block, &target, err);
         if (!status)
-            status = read_block(block, target, config_setting_get_elem(list, (unsigned)i), source, err);
+            status = read_block(block, target, group, source, err);
         if (status)
             return status;
     }
@@ -237,8 +272,9 @@ enum status scene_load(const char *path, struct scene *scene, struct error *err)
 enum status scene_from_mesh(const char *mesh_path, struct scene *scene, struct error *err)
 {
     enum status status = set_scene_defaults(scene, err);
+    void *balloon;
     if (!status)
-        status = add_balloon(scene, err);
+        status = add_item(scene, scene_find_block("", "balloons"), &balloon, err);
     if (!status) {
         scene->time.integrator = SCENE_SYMPLECTIC_EULER;
         scene->time.guard = SCENE_GUARD_OFF;
@@ -278,18 +314,16 @@ static bool take_name(const char **path, char *name, size_t size, long *index)
 static enum status list_item(struct scene *scene, const struct scene_block *block, long index, void **item,
                              struct error *err)
 {
-    const bool balloons = !strcmp(block->name, "balloons");
-    const size_t count = balloons ? scene->balloon_count : scene->schedule_count;
+    const struct list *list = find_list(block);
+    const size_t count = *(const size_t *)((const char *)scene + list->count);
     if (index < 0 || (size_t)index > count)
         return error_set(err, STATUS_INPUT,
                          "--set: %s has %zu entries; write %s[0] to %s[%zu], the last to add one",
                          block->name, count, block->name, block->name, count);
-    enum status status = STATUS_OK;
     if ((size_t)index == count)
-        status = balloons ? add_balloon(scene, err) : add_schedule(scene, err);
-    if (!status)
-        *item = balloons ? (void *)&scene->balloons[index] : (void *)&scene->schedule[index];
-    return status;
+        return add_item(scene, block, item, err);
+    *item = item_of(scene, list, (size_t)index);
+    return STATUS_OK;
 }
 
 /* Sets one key by its path, with the value already parsed. */
