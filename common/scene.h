@@ -35,6 +35,8 @@ struct scene_view {
     double target[3];      /* from the centre of the balloons at rest, in the same radii */
     double field_of_view;  /* degrees, vertical */
     int stereo;            /* index into scene_stereo_names */
+    int style, order;      /* indices into scene_style_names, scene_order_names */
+    int samples;           /* along a pixel's side */
     double eye_distance;   /* over the distance from eye to target */
     double rate, playback; /* frames a simulated second; frames a second in the movie */
 };
@@ -187,12 +189,16 @@ extern const char *const scene_guard_names[];
 extern const char *const scene_pressure_on_names[];
 extern const char *const scene_process_names[];
 extern const char *const scene_stereo_names[];
+extern const char *const scene_style_names[];
+extern const char *const scene_order_names[];
 extern const char *const scene_shape_names[];
 enum { SCENE_SYMPLECTIC_EULER }; /* the first of the integrators: the paper's */
 enum scene_guard { SCENE_GUARD_SUBSTEP, SCENE_GUARD_REFUSE, SCENE_GUARD_OFF };
 enum scene_shape { SCENE_SPHERE, SCENE_BOX };
 enum scene_pressure_on { SCENE_ON_POINTS, SCENE_ON_AREAS };
 enum scene_process { SCENE_ISOTHERMAL, SCENE_ADIABATIC };
+enum scene_style { SCENE_LATEX, SCENE_PAPER };
+enum scene_order { SCENE_ORDER_NONE, SCENE_ORDER_SORT, SCENE_ORDER_PEEL, SCENE_ORDER_LIST };
 enum scene_stereo { SCENE_MONO, SCENE_PARALLEL, SCENE_CROSSED };
 
 /* Reads a scene file. *scene must be empty ({0}) and is so again after a failure. Errors: STATUS_FILE, STATUS_INPUT with

@@ -23,6 +23,8 @@ const char *const scene_pressure_on_names[] = {"points", "areas", NULL};
 const char *const scene_process_names[] = {"isothermal", "adiabatic", NULL};
 const char *const scene_stereo_names[] = {"mono", "parallel", "crossed", NULL};
 const char *const scene_shape_names[] = {"sphere", "box", NULL};
+const char *const scene_style_names[] = {"latex", "paper", NULL};
+const char *const scene_order_names[] = {"none", "sort", "peel", "list", NULL};
 
 #define CHOICES_NUMBER(key) NULL
 #define CHOICES_WHOLE(key)  NULL

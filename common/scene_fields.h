@@ -31,6 +31,13 @@
     X(field_of_view, NUMBER, 1, 150, "30", "degrees", FREE, "vertical angle of the picture", "")             \
     X(stereo, CHOICE, 0, 0, "\"parallel\"", "", FREE, "one eye, or two side by side", "paper 3.7")           \
     X(eye_distance, NUMBER, 0, 1, "0.05", "", FREE, "between the eyes, over the distance to the target", "") \
+    X(style, CHOICE, 0, 0, "\"latex\"", "", FREE, "rubber by its stretch, or the plain skin of the paper",   \
+      "paper 3.3")                                                                                           \
+    X(order, CHOICE, 0, 0, "\"sort\"", "", FREE,                                                             \
+      "of translucent triangles: as they come, sorted, or exact by peeling layers or a list for each pixel", \
+      "paper 3.3")                                                                                           \
+    X(samples, WHOLE, 1, 4, "1", "", FREE,                                                                   \
+      "along each side of a pixel, of whose squares it is the mean; 1: smooth outlines", "")                 \
     X(rate, NUMBER, 1e-6, 1e6, "40", "1/s", FREE, "frames drawn and rows logged a simulated second",         \
       "paper 4: one a step")                                                                                 \
     X(playback, NUMBER, 1, 240, "25", "1/s", FREE, "frames a second in the movie", "")

@@ -5,6 +5,11 @@
  * memory than themselves. */
 enum { BAND_PIXELS = 1 << 22 };
 
+/* Strips in linear light, with lists of layers, hold at most this many samples (or one row). */
+enum { LIGHT_PIXELS = 1 << 20 };
+
+static const float exposure = 0.86f; /* of latex; the backdrop looks the same with and without */
+
 /* What drawing a band needs to hand around. */
 struct band {
     struct render *render;
@@ -14,10 +19,32 @@ struct band {
     int below; /* the picture's row, from below, that is the target's lowest */
 };
 
-enum status render_bind_band(struct render *render, int width, int height, bool smooth, struct error *err)
+enum status render_bind_band(struct render *render, const struct render_view *view, struct error *err)
 {
-    int rows = BAND_PIXELS / width < height ? BAND_PIXELS / width : height;
-    return target_bind(&render->target, &render->gl, width, rows, smooth ? 4 : 1, err);
+    int rows = BAND_PIXELS / view->width < view->height ? BAND_PIXELS / view->width : view->height;
+    const int samples = view->smooth_edges && !render_in_light(view) ? 4 : 1;
+    return target_bind(&render->target, &render->gl, view->width, rows, samples, err);
+}
+
+bool render_in_light(const struct render_view *view)
+{
+    return view->style == RENDER_LATEX || view->order > RENDER_SORT || view->samples > 1;
+}
+
+enum status render_ready(struct render *render, const struct render_view *view, struct error *err)
+{
+    enum status status = STATUS_OK;
+    if (!render_in_light(view))
+        return STATUS_OK;
+    if (!render->light.tone)
+        status = light_open(&render->light, &render->gl, err);
+    if (!status)
+        status = draw_ready(&render->draw, &render->gl, view->style, LIGHT_BLENDED, err);
+    if (!status && view->order > RENDER_SORT)
+        status = draw_ready(&render->draw, &render->gl, view->style, LIGHT_PEELING, err);
+    if (!status && view->order == RENDER_LIST && render->light.lists)
+        status = draw_ready(&render->draw, &render->gl, view->style, LIGHT_LISTED, err);
+    return status;
 }
 
 static int limited(int value, int least, int most)
@@ -46,7 +73,9 @@ static void find_box(const struct band *band, int box[4])
 static void draw_behind_all(const struct band *band)
 {
     struct render *render = band->render;
-    draw_behind(&render->draw, &render->gl, band->view, band->eye, &render->geometry, band->below);
+    const struct draw_place place = {{band->eye->left, -band->below, band->eye->width, band->view->height},
+                                     1};
+    draw_behind(&render->draw, &render->gl, &place, band->eye, &render->geometry);
 }
 
 /* All but the text. */
@@ -81,18 +110,80 @@ static void draw_smoothly(const struct band *band)
     }
 }
 
-static void draw_one_eye(const struct band *band)
+static void draw_layers(void *self, const struct light_pass *pass)
+{
+    const struct band *band = self;
+    struct render *render = band->render;
+    if (render->geometry.translucent.count)
+        draw_translucent(&render->draw, &render->gl, band->view->style, band->eye, &render->geometry, pass);
+}
+
+/* A strip of the target (x, y from below, width, height) in linear light, over what is there. */
+static enum status draw_strip(struct band *band, const int strip[4], struct error *err)
+{
+    struct render *render = band->render;
+    const struct render_view *view = band->view;
+    const struct gl *gl = &render->gl;
+    const int side = view->samples > 1 ? view->samples : 1;
+    const bool latex = view->style == RENDER_LATEX;
+    const bool smooth = view->smooth_edges && side == 1 && view->order <= RENDER_SORT;
+    enum status status = light_bind(&render->light, gl, strip[2] * side, strip[3] * side, smooth ? 4 : 1,
+                                    err);
+    if (status)
+        return status;
+    const struct draw_place place = {{(band->eye->left - strip[0]) * side, -(band->below + strip[1]) * side,
+                                      band->eye->width * side, view->height * side},
+                                     latex ? 1 / exposure : 1};
+    gl->Scissor(0, 0, strip[2] * side, strip[3] * side);
+    draw_behind(&render->draw, gl, &place, band->eye, &render->geometry);
+    if (band->scene->solid)
+        solid_draw_eye(&render->solid, gl, view, band->eye, &render->geometry, band->scene);
+    draw_opaque(&render->draw, gl, view->style, band->eye, &render->geometry);
+    light_layers(&render->light, gl, view->order, draw_layers, band);
+    overlay_draw_lines(&render->overlay, gl, view, band->eye, &render->geometry);
+    light_finish(&render->light, gl);
+    target_bind_drawn(&render->target, gl);
+    gl->Viewport(0, 0, render->target.width, render->target.height);
+    gl->Scissor(strip[0], strip[1], strip[2], strip[3]);
+    light_tone(&render->light, gl, strip, side, latex ? exposure : 0);
+    return STATUS_OK;
+}
+
+/* Only the part of the picture that anything may meet is drawn in linear light; the backdrop around it is the same. */
+static enum status draw_in_light(struct band *band, struct error *err)
+{
+    int box[4], side = band->view->samples > 1 ? band->view->samples : 1;
+    enum status status = STATUS_OK;
+    find_box(band, box);
+    draw_behind_all(band);
+    if (!box[2] || !box[3])
+        return STATUS_OK;
+    int rows = limited(LIGHT_PIXELS / (box[2] * side * side), 1, box[3]);
+    for (int y = 0; y < box[3] && !status; y += rows) {
+        const int strip[4] = {box[0], box[1] + y, box[2], limited(box[3] - y, 1, rows)};
+        status = draw_strip(band, strip, err);
+    }
+    band->render->gl.Viewport(band->eye->left, -band->below, band->eye->width, band->view->height);
+    return status;
+}
+
+static enum status draw_one_eye(struct band *band, struct error *err)
 {
     struct render *render = band->render;
     const struct gl *gl = &render->gl;
+    enum status status = STATUS_OK;
     gl->Enable(GL_SCISSOR_TEST);
     gl->Scissor(band->eye->left, 0, band->eye->width, render->target.height);
-    if (band->view->smooth_edges)
+    if (render_in_light(band->view))
+        status = draw_in_light(band, err);
+    else if (band->view->smooth_edges)
         draw_smoothly(band);
     else
         draw_all(band);
+    gl->Scissor(band->eye->left, 0, band->eye->width, render->target.height);
     overlay_draw_text(&render->overlay, gl, band->view, band->eye);
     gl->Disable(GL_SCISSOR_TEST);
+    return status;
 }
 
 enum status render_bands(struct render *render, const struct render_view *view,
@@ -104,8 +195,10 @@ enum status render_bands(struct render *render, const struct render_view *view,
     for (int below = 0; below < view->height && !status; below += rows) {
         int left = view->height - below;
         target_bind_drawn(&render->target, &render->gl);
-        for (int i = 0; i < count; i++)
-            draw_one_eye(&(struct band){render, view, scene, &eyes[i], below});
+        for (int i = 0; i < count && !status; i++)
+            status = draw_one_eye(&(struct band){render, view, scene, &eyes[i], below}, err);
+        if (status)
+            break;
         if (out)
             status = target_read(&render->target, &render->gl, out, below, left < rows ? left : rows, err);
         else

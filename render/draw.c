@@ -26,14 +26,37 @@ static void describe_vertices(struct draw *draw, const struct gl *gl)
     gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, draw->indices);
     describe(gl, SHADER_POSITION, 3, GL_FLOAT, offsetof(struct geometry_vertex, position));
     describe(gl, SHADER_NORMAL, 3, GL_FLOAT, offsetof(struct geometry_vertex, normal));
-    describe(gl, SHADER_OPACITY, 1, GL_FLOAT, offsetof(struct geometry_vertex, opacity));
-    describe(gl, SHADER_SHININESS, 1, GL_FLOAT, offsetof(struct geometry_vertex, shininess));
-    describe(gl, SHADER_COLOUR, 3, GL_UNSIGNED_SHORT, offsetof(struct geometry_vertex, colour));
+    describe(gl, SHADER_FILM, 1, GL_FLOAT, offsetof(struct geometry_vertex, film));
+    describe(gl, SHADER_GLOSS, 1, GL_FLOAT, offsetof(struct geometry_vertex, gloss));
+    describe(gl, SHADER_COLOUR, 4, GL_UNSIGNED_SHORT, offsetof(struct geometry_vertex, colour));
+}
+
+enum status draw_ready(struct draw *draw, const struct gl *gl, enum render_style style, enum light_way way,
+                       struct error *err)
+{
+    static const char *const vertex[2] = {shader_paper_vertex, shader_latex_vertex};
+    static const char *const fragment[2][LIGHT_WAYS] = {
+        {shader_paper_blended, shader_paper_peeled, shader_paper_listed},
+        {shader_latex_blended, shader_latex_peeled, shader_latex_listed}};
+    struct draw_program *skin = &draw->skins[style][way];
+    if (skin->program)
+        return STATUS_OK;
+    enum status status = program_link(gl, vertex[style], fragment[style][way], &skin->program, err);
+    if (status) {
+        gl->DeleteProgram(skin->program);
+        skin->program = 0;
+        return status;
+    }
+    skin->projection = gl->GetUniformLocation(skin->program, "projection");
+    skin->eye = gl->GetUniformLocation(skin->program, "eye");
+    skin->width = gl->GetUniformLocation(skin->program, "width");
+    skin->room = gl->GetUniformLocation(skin->program, "room");
+    return STATUS_OK;
 }
 
 enum status draw_open(struct draw *draw, const struct gl *gl, struct error *err)
 {
-    enum status status = program_link(gl, shader_skin_vertex, shader_skin_fragment, &draw->skin, err);
+    enum status status = draw_ready(draw, gl, RENDER_PAPER, LIGHT_BLENDED, err);
     if (!status)
         status = program_link(gl, shader_backdrop_vertex, shader_backdrop_fragment, &draw->backdrop, err);
     if (!status)
@@ -42,8 +65,7 @@ enum status draw_open(struct draw *draw, const struct gl *gl, struct error *err)
         draw_close(draw, gl);
         return status;
     }
-    draw->skin_projection = gl->GetUniformLocation(draw->skin, "projection");
-    draw->skin_eye = gl->GetUniformLocation(draw->skin, "eye");
+    draw->backdrop_brightness = gl->GetUniformLocation(draw->backdrop, "brightness");
     draw->shadow_projection = gl->GetUniformLocation(draw->shadow, "projection");
     draw->shadow_corner = gl->GetUniformLocation(draw->shadow, "corner");
     draw->shadow_left = gl->GetUniformLocation(draw->shadow, "left");
@@ -58,7 +80,9 @@ void draw_close(struct draw *draw, const struct gl *gl)
         gl->DeleteVertexArrays(2, arrays);
     if (draw->vertices)
         gl->DeleteBuffers(2, buffers);
-    gl->DeleteProgram(draw->skin);
+    for (int style = 0; style < 2; style++)
+        for (int way = 0; way < LIGHT_WAYS; way++)
+            gl->DeleteProgram(draw->skins[style][way].program);
     gl->DeleteProgram(draw->backdrop);
     gl->DeleteProgram(draw->shadow);
     *draw = (struct draw){0};
@@ -74,11 +98,12 @@ void draw_upload(const struct draw *draw, const struct gl *gl, const struct geom
                    g->indices.items, GL_STREAM_DRAW);
 }
 
-static void draw_backdrop(const struct draw *draw, const struct gl *gl)
+static void draw_backdrop(const struct draw *draw, const struct gl *gl, float brightness)
 {
     gl->Disable(GL_DEPTH_TEST);
     gl->Disable(GL_BLEND);
     gl->UseProgram(draw->backdrop);
+    gl->Uniform1f(draw->backdrop_brightness, brightness);
     gl->BindVertexArray(draw->nothing);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -97,48 +122,68 @@ static void draw_shadow(const struct draw *draw, const struct gl *gl, const floa
     gl->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
-/* Opaque triangles hide by depth; translucent ones are hidden by those, and lie over one another in their order. The shader gives the
- * light to add and the share of each colour to keep of what lies behind. */
-static void draw_skins(const struct draw *draw, const struct gl *gl, const float projection[16],
-                       const float eye[3], const struct geometry *g)
-{
-    gl->Enable(GL_DEPTH_TEST);
-    gl->Disable(GL_BLEND);
-    gl->UseProgram(draw->skin);
-    gl->UniformMatrix4fv(draw->skin_projection, 1, GL_FALSE, projection);
-    gl->Uniform3fv(draw->skin_eye, 1, eye);
-    gl->BindVertexArray(draw->arrays);
-    if (g->opaque.count)
-        gl->DrawElements(GL_TRIANGLES, (GLsizei)(3 * g->opaque.count), GL_UNSIGNED_INT, NULL);
-    if (!g->translucent.count)
-        return;
-    gl->DepthMask(GL_FALSE);
-    gl->Enable(GL_BLEND);
-    gl->BlendFunc(GL_ONE, GL_SRC1_COLOR);
-    gl->DrawElements(GL_TRIANGLES, (GLsizei)(3 * g->translucent.count), GL_UNSIGNED_INT,
-                     (const void *)(3 * g->opaque.count * sizeof(uint32_t)));
-    gl->DepthMask(GL_TRUE);
-}
-
-void draw_behind(const struct draw *draw, const struct gl *gl, const struct render_view *view,
-                 const struct camera_eye *eye, const struct geometry *geometry, int below)
+void draw_behind(const struct draw *draw, const struct gl *gl, const struct draw_place *place,
+                 const struct camera_eye *eye, const struct geometry *geometry)
 {
     float projection[16];
+    const int *at = place->viewport;
     camera_projection(eye, geometry->nearest, geometry->farthest, projection);
-    gl->Viewport(eye->left, -below, eye->width, view->height);
+    gl->Viewport(at[0], at[1], at[2], at[3]);
     gl->Enable(GL_FRAMEBUFFER_SRGB);
-    draw_backdrop(draw, gl);
+    draw_backdrop(draw, gl, place->brightness);
     if (geometry->shadow.visible)
         draw_shadow(draw, gl, projection, &geometry->shadow);
     gl->DepthMask(GL_TRUE);
     gl->Clear(GL_DEPTH_BUFFER_BIT);
 }
 
-void draw_eye(const struct draw *draw, const struct gl *gl, const struct camera_eye *eye,
-              const struct geometry *geometry)
+static void use_skin(const struct draw *draw, const struct gl *gl, const struct draw_program *skin,
+                     const struct camera_eye *eye, const struct geometry *geometry)
 {
     float projection[16];
     const float at[3] = {(float)eye->offset, 0, 0};
     camera_projection(eye, geometry->nearest, geometry->farthest, projection);
-    draw_skins(draw, gl, projection, at, geometry);
+    gl->UseProgram(skin->program);
+    gl->UniformMatrix4fv(skin->projection, 1, GL_FALSE, projection);
+    gl->Uniform3fv(skin->eye, 1, at);
+    gl->BindVertexArray(draw->arrays);
+}
+
+void draw_opaque(const struct draw *draw, const struct gl *gl, enum render_style style,
+                 const struct camera_eye *eye, const struct geometry *g)
+{
+    gl->Enable(GL_DEPTH_TEST);
+    gl->Disable(GL_BLEND);
+    if (!g->opaque.count)
+        return;
+    use_skin(draw, gl, &draw->skins[style][LIGHT_BLENDED], eye, g);
+    gl->DrawElements(GL_TRIANGLES, (GLsizei)(3 * g->opaque.count), GL_UNSIGNED_INT, NULL);
+}
+
+void draw_translucent(const struct draw *draw, const struct gl *gl, enum render_style style,
+                      const struct camera_eye *eye, const struct geometry *g, const struct light_pass *pass)
+{
+    const struct draw_program *skin = &draw->skins[style][pass->way];
+    use_skin(draw, gl, skin, eye, g);
+    if (pass->way == LIGHT_LISTED) {
+        gl->Uniform1i(skin->width, pass->width);
+        gl->Uniform1ui(skin->room, pass->room);
+    }
+    gl->DrawElements(GL_TRIANGLES, (GLsizei)(3 * g->translucent.count), GL_UNSIGNED_INT,
+                     (const void *)(3 * g->opaque.count * sizeof(uint32_t)));
+}
+
+/* Opaque triangles hide by depth; translucent ones are hidden by those, and lie over one another in their order. The
+ * shader gives the light to add and the share of each colour to keep of what lies behind. */
+void draw_eye(const struct draw *draw, const struct gl *gl, const struct camera_eye *eye,
+              const struct geometry *geometry)
+{
+    draw_opaque(draw, gl, RENDER_PAPER, eye, geometry);
+    if (!geometry->translucent.count)
+        return;
+    gl->DepthMask(GL_FALSE);
+    gl->Enable(GL_BLEND);
+    gl->BlendFunc(GL_ONE, GL_SRC1_COLOR);
+    draw_translucent(draw, gl, RENDER_PAPER, eye, geometry, &(struct light_pass){.way = LIGHT_BLENDED});
+    gl->DepthMask(GL_TRUE);
 }

@@ -5,7 +5,7 @@
  *     struct draw draw = {0};
  *     if (draw_open(&draw, &gl, err)) ...
  *     draw_upload(&draw, &gl, &geometry);                         for each frame
- *     draw_behind(&draw, &gl, &view, &eye, &geometry, 0);         for each eye
+ *     draw_behind(&draw, &gl, &place, &eye, &geometry);           for each eye
  *     draw_eye(&draw, &gl, &eye, &geometry);
  *     draw_close(&draw, &gl);
  */
@@ -14,13 +14,26 @@
 
 #include "render/geometry.h"
 #include "render/gl.h"
+#include "render/light.h"
+
+/* The skins' program of one style and way, made when it is first wanted, and its uniforms. */
+struct draw_program {
+    GLuint program;
+    GLint projection, eye, width, room;
+};
 
 struct draw {
-    GLuint skin, backdrop, shadow;   /* programs */
-    GLint skin_projection, skin_eye; /* their uniforms */
-    GLint shadow_projection, shadow_corner, shadow_left;
+    struct draw_program skins[2][LIGHT_WAYS]; /* by enum render_style */
+    GLuint backdrop, shadow;
+    GLint backdrop_brightness, shadow_projection, shadow_corner, shadow_left;
     GLuint arrays, nothing;   /* vertex arrays: the skin's, and one without attributes */
     GLuint vertices, indices; /* buffers */
+};
+
+/* Where an eye's whole picture lies in the framebuffer (x, y, width, height), and how bright 1 is. */
+struct draw_place {
+    int viewport[4];
+    float brightness;
 };
 
 /* Errors: STATUS_RESOURCE with the compiler's message. */
@@ -30,13 +43,25 @@ void draw_close(struct draw *draw, const struct gl *gl);
 /* Hands the geometry over, once a frame. */
 void draw_upload(const struct draw *draw, const struct gl *gl, const struct geometry *geometry);
 
-/* Sets the viewport; draws backdrop and shadow as one eye sees them, within the scissor's rectangle, and begins
- * the depth there anew. The framebuffer's lowest row is the picture's row `below` from below: a large picture
- * may be drawn in bands. */
-void draw_behind(const struct draw *draw, const struct gl *gl, const struct render_view *view,
-                 const struct camera_eye *eye, const struct geometry *geometry, int below);
+/* Makes ready what draws skins of that style that way. Errors: STATUS_RESOURCE with the compiler's message. */
+enum status draw_ready(struct draw *draw, const struct gl *gl, enum render_style style, enum light_way way,
+                       struct error *err);
 
-/* The skins, over that and whatever has been drawn since. */
+/* Sets the viewport; draws backdrop and shadow as one eye sees them, within the scissor's rectangle, and begins
+ * the depth there anew. */
+void draw_behind(const struct draw *draw, const struct gl *gl, const struct draw_place *place,
+                 const struct camera_eye *eye, const struct geometry *geometry);
+
+/* The skins' opaque triangles, by depth. */
+void draw_opaque(const struct draw *draw, const struct gl *gl, enum render_style style,
+                 const struct camera_eye *eye, const struct geometry *geometry);
+
+/* The translucent ones as the pass wants them; blending and depth are the caller's. The program is ready. */
+void draw_translucent(const struct draw *draw, const struct gl *gl, enum render_style style,
+                      const struct camera_eye *eye, const struct geometry *geometry,
+                      const struct light_pass *pass);
+
+/* All skins, the translucent ones blended in the geometry's order. */
 void draw_eye(const struct draw *draw, const struct gl *gl, const struct camera_eye *eye,
               const struct geometry *geometry);
 

@@ -19,6 +19,8 @@ struct building {
     size_t skin_number;
     uint32_t first_vertex; /* of the points' shared vertices */
     bool shared;           /* points have vertices of their own: smooth normals, no facets */
+    bool is_latex;
+    struct geometry_latex latex;
     uint16_t colour[4];
 };
 
@@ -27,13 +29,24 @@ static float clamp(float value, float least, float most)
     return value < least ? least : value > most ? most : value;
 }
 
-static float opacity_of(const struct render_skin *skin, uint32_t t)
+static float stretch_of(const struct render_skin *skin, uint32_t t)
 {
+    return skin->stretch ? skin->stretch[t] : 1;
+}
+
+static float film_of(const struct building *b, uint32_t t)
+{
+    const struct render_skin *skin = b->skin;
+    if (b->is_latex)
+        return latex_film(&b->latex, stretch_of(skin, t));
     return skin->opacity ? clamp(skin->opacity[t], 0, 1) : 1;
 }
 
-static float shininess_of(const struct render_skin *skin, uint32_t t)
+static float gloss_of(const struct building *b, uint32_t t)
 {
+    const struct render_skin *skin = b->skin;
+    if (b->is_latex)
+        return latex_roughness(&b->latex, stretch_of(skin, t));
     return skin->shininess ? clamp(skin->shininess[t], 0, 10000) : 0;
 }
 
@@ -61,6 +74,9 @@ static enum status check_triangle(const struct building *b, uint32_t t, struct e
         return error_set(err, STATUS_RANGE,
                          "skin %zu, triangle %u has an opacity or shininess that is no number",
                          b->skin_number, t);
+    if (skin->stretch && isnan(skin->stretch[t]))
+        return error_set(err, STATUS_RANGE, "skin %zu, triangle %u has a stretch that is no number",
+                         b->skin_number, t);
     return STATUS_OK;
 }
 
@@ -73,8 +89,8 @@ static enum status check_triangles(const struct building *b, struct error *err)
     return status;
 }
 
-/* Averages the triangles' opacity and shininess at the points: sums[3 p ..] becomes opacity, shininess and
- * the number of triangles. */
+/* Averages the triangles' film and gloss at the points: sums[3 p ..] becomes film, gloss and the number of
+ * triangles. Latex is thicker at its rims. */
 static void average_at_points(const struct building *b)
 {
     const struct mesh *mesh = b->skin->mesh;
@@ -85,8 +101,8 @@ static void average_at_points(const struct building *b)
             continue;
         for (int k = 0; k < 3; k++) {
             float *sum = sums + 3 * (size_t)mesh->triangle[t][k];
-            sum[0] += opacity_of(b->skin, t);
-            sum[1] += shininess_of(b->skin, t);
+            sum[0] += film_of(b, t);
+            sum[1] += gloss_of(b, t);
             sum[2] += 1;
         }
     }
@@ -96,11 +112,13 @@ static void average_at_points(const struct building *b)
             sum[0] /= sum[2];
             sum[1] /= sum[2];
         }
+        if (b->is_latex && latex_is_rim(&b->geometry->fans.items[p]))
+            sum[0] *= latex_rim;
     }
 }
 
 static void set_vertex(const struct building *b, struct geometry_vertex *vertex, uint32_t point,
-                       const double normal[3], float opacity, float shininess)
+                       const double normal[3], float film, float gloss)
 {
     double at[3], turned[3];
     camera_to_space(b->space, b->skin->mesh->position[point], at);
@@ -109,8 +127,8 @@ static void set_vertex(const struct building *b, struct geometry_vertex *vertex,
         vertex->position[i] = (float)at[i];
         vertex->normal[i] = (float)turned[i];
     }
-    vertex->opacity = opacity;
-    vertex->shininess = shininess;
+    vertex->film = film;
+    vertex->gloss = gloss;
     memcpy(vertex->colour, b->colour, sizeof b->colour);
 }
 
@@ -131,19 +149,27 @@ static bool is_direction(const double normal[3])
     return square > 1e-12 && square < 1e12;
 }
 
+/* Where a skin is torn or folded sharply its points' normals may say nothing of the triangle at hand: more than 70 degrees
+ * away they are not taken. */
+static bool is_crease(const struct building *b, const double normal[3], const double facet[3])
+{
+    return b->is_latex && vec3_dot(normal, facet) < 0.34 * vec3_length(normal);
+}
+
 /* The vertex of a triangle's corner: the point's own, or one added for this corner. */
 static uint32_t corner_vertex(struct building *b, uint32_t t, int k, const double facet[3])
 {
     const struct mesh *mesh = b->skin->mesh;
     uint32_t point = mesh->triangle[t][k];
-    bool smooth = mesh->normal && is_direction(mesh->normal[point]);
+    bool smooth = mesh->normal && is_direction(mesh->normal[point]) &&
+                  !is_crease(b, mesh->normal[point], facet);
     if (b->shared && smooth)
         return b->first_vertex + point;
     const float *mean = b->geometry->sums.items + 3 * (size_t)point;
     bool own = b->skin->facets;
     uint32_t vertex = (uint32_t)b->geometry->vertices.count++;
     set_vertex(b, &b->geometry->vertices.items[vertex], point, smooth ? mesh->normal[point] : facet,
-               own ? opacity_of(b->skin, t) : mean[0], own ? shininess_of(b->skin, t) : mean[1]);
+               own ? film_of(b, t) : mean[0], own ? gloss_of(b, t) : mean[1]);
     return vertex;
 }
 
@@ -201,7 +227,7 @@ static void add_triangle(struct building *b, uint32_t t)
     for (int k = 0; k < 3; k++) {
         triangle.vertex[k] = corner_vertex(b, t, k, facet);
         const struct geometry_vertex *vertex = &g->vertices.items[triangle.vertex[k]];
-        opaque = opaque && vertex->opacity >= opaque_from;
+        opaque = opaque && vertex->film >= (b->is_latex ? latex_opaque : opaque_from);
         for (int i = 0; i < 3; i++)
             middle[i] += vertex->position[i] / 3.0;
         see_corner(g, vertex->position);
@@ -224,14 +250,18 @@ static enum status add_skin(struct building *b, struct error *err)
     enum status status = check_triangles(b, err);
     if (status || !triangles)
         return status;
-    g->sums.count = 0;
+    g->sums.count = g->fans.count = 0;
     if (g->vertices.count + corners + mesh->point_count > UINT32_MAX)
         return error_set(err, STATUS_RANGE, "skin %zu: more triangles than can be drawn at once",
                          b->skin_number);
     if (!ARRAY_RESERVE(&g->vertices, corners + (b->shared ? mesh->point_count : 0)) ||
         !ARRAY_RESERVE(&g->opaque, triangles) || !ARRAY_RESERVE(&g->translucent, triangles) ||
-        !ARRAY_RESERVE(&g->sums, 3 * (size_t)mesh->point_count))
+        !ARRAY_RESERVE(&g->sums, 3 * (size_t)mesh->point_count) ||
+        (b->is_latex && !ARRAY_RESERVE(&g->fans, mesh->point_count)))
         return error_no_memory(err, "the triangles to draw");
+    if (b->is_latex)
+        latex_measure(&b->latex, b->skin, g->fans.items);
+    b->colour[3] = (uint16_t)lrintf(b->latex.closed * 65535);
     b->first_vertex = (uint32_t)g->vertices.count;
     average_at_points(b);
     if (b->shared)
@@ -303,7 +333,11 @@ enum status geometry_build(struct geometry *g, const struct render_view *view,
         g->high[i] = -INFINITY;
     }
     for (size_t i = 0; i < skin_count; i++) {
-        struct building b = {.geometry = g, .space = &space, .skin = &skins[i], .skin_number = i};
+        struct building b = {.geometry = g,
+                             .space = &space,
+                             .skin = &skins[i],
+                             .skin_number = i,
+                             .is_latex = view->style == RENDER_LATEX};
         enum status status = add_skin(&b, err);
         if (status)
             return status;
@@ -318,7 +352,7 @@ enum status geometry_build(struct geometry *g, const struct render_view *view,
     }
     g->farthest = fmin(fmax(g->farthest * 1.01, 2 * nearest_drawn), farthest_drawn);
     g->nearest = fmin(fmax(g->nearest * 0.99, nearest_drawn), g->farthest / 2);
-    return order_triangles(g, view->sorted, err);
+    return order_triangles(g, view->order == RENDER_SORT, err);
 }
 
 void geometry_clear(struct geometry *g)
@@ -329,5 +363,6 @@ void geometry_clear(struct geometry *g)
     free(g->spare.items);
     free(g->indices.items);
     free(g->sums.items);
+    free(g->fans.items);
     *g = (struct geometry){0};
 }

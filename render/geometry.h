@@ -16,14 +16,28 @@
 
 struct geometry_vertex {
     float position[3], normal[3]; /* in camera space; the normal outward, unit length or nearly so */
-    float opacity, shininess;
-    uint16_t colour[4]; /* linear, 65535 = 1; the last is unused */
+    float film, gloss;            /* opacity and shininess; of latex optical depth over K + S and roughness */
+    uint16_t colour[4];           /* linear, 65535 = 1; the last: how closed the latex is */
 };
 
 /* A triangle on its way into the index array. */
 struct geometry_triangle {
     uint32_t vertex[3];
     uint32_t nearness; /* larger is nearer: the order to draw in; the bits of a float upside down */
+};
+
+/* What tells whether the triangles around a point close: sums over them of the difference between their other two
+ * points, as numbers and as places. Both vanish where they do; else the second leads along the rim. */
+struct geometry_fan {
+    uint64_t numbers;
+    float places[3];
+};
+
+/* A latex skin as a whole. */
+struct geometry_latex {
+    float film;      /* optical depth over K + S where the stretch is 1 */
+    float roughness; /* there */
+    float closed;    /* 1: light bounces inside, 0: it is torn open */
 };
 
 /* The shadow that the skins cast from above onto the floor: a Gaussian with their area's mean and
@@ -50,7 +64,11 @@ struct geometry {
     struct {
         float *items;
         size_t count, capacity;
-    } sums;                   /* of opacity, shininess, triangles for each point of a skin */
+    } sums; /* of film, gloss, triangles for each point of a skin */
+    struct {
+        struct geometry_fan *items;
+        size_t count, capacity;
+    } fans;                   /* of a latex skin's points */
     double low[2], high[2];   /* x and y at distance 1 between which every corner appears */
     double nearest, farthest; /* distances that hold every triangle in sight, and the shadow */
     struct geometry_shadow shadow;
@@ -62,6 +80,18 @@ enum status geometry_build(struct geometry *geometry, const struct render_view *
                            const struct render_skin *skins, size_t skin_count, const double (*others)[3],
                            size_t other_count, struct error *err);
 void geometry_clear(struct geometry *geometry);
+
+/* Finds how closed a skin is and, in `fans` ([point_count]), where its rims are. latex.c */
+void latex_measure(struct geometry_latex *latex, const struct render_skin *skin, struct geometry_fan *fans);
+
+/* Optical depth and roughness of a film of that area stretch. */
+float latex_film(const struct geometry_latex *latex, float stretch);
+float latex_roughness(const struct geometry_latex *latex, float stretch);
+
+/* True on a torn edge or another rim, where rubber is thicker. */
+bool latex_is_rim(const struct geometry_fan *fan);
+extern const float latex_rim;    /* how much thicker */
+extern const float latex_opaque; /* film from which on nothing shows through */
 
 /* Sorts by nearness, farthest first; spare has room for as many. Equal ones keep their order. */
 void geometry_sort(struct geometry_triangle *triangles, struct geometry_triangle *spare, size_t count);

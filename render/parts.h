@@ -4,6 +4,7 @@
 
 #include "render/context.h"
 #include "render/draw.h"
+#include "render/light.h"
 #include "render/overlay_draw.h"
 #include "render/program.h"
 #include "render/solid_draw.h"
@@ -19,6 +20,7 @@ struct render {
     struct overlay overlay;
     struct quads quads;
     struct target target;
+    struct light light; /* open only once a picture wants it */
     struct geometry geometry;
     struct {
         double (*items)[3];
@@ -34,7 +36,13 @@ enum status render_use(struct render *render, struct error *err);
 enum status render_bands(struct render *render, const struct render_view *view,
                          const struct render_scene *scene, struct image *out, struct error *err);
 
+/* True where the picture is made in linear light first: latex, exact order, several samples. */
+bool render_in_light(const struct render_view *view);
+
+/* Opens what that needs. */
+enum status render_ready(struct render *render, const struct render_view *view, struct error *err);
+
 /* Makes the target as large as a band of such a picture and binds it. */
-enum status render_bind_band(struct render *render, int width, int height, bool smooth, struct error *err);
+enum status render_bind_band(struct render *render, const struct render_view *view, struct error *err);
 
 #endif

@@ -40,7 +40,7 @@ enum status render_open(int width, int height, struct render **result, struct er
     if (!status)
         status = open_parts(render, context_function, err);
     if (!status)
-        status = render_bind_band(render, width, height, false, err);
+        status = render_bind_band(render, &(struct render_view){.width = width, .height = height}, err);
     if (status)
         render_close(render);
     else
@@ -94,7 +94,9 @@ static enum status prepare(struct render *render, const struct render_view *view
     if (!status)
         status = render_use(render, err);
     if (!status)
-        status = render_bind_band(render, view->width, view->height, view->smooth_edges, err);
+        status = render_ready(render, view, err);
+    if (!status)
+        status = render_bind_band(render, view, err);
     if (!status)
         status = overlay_upload(&render->overlay, &render->gl, &render->quads, view, scene, err);
     if (!status)
@@ -134,6 +136,7 @@ void render_close(struct render *render)
     struct error ignored;
     if (render->gl.Viewport && !render_use(render, &ignored)) {
         target_clear(&render->target, &render->gl);
+        light_close(&render->light, &render->gl);
         draw_close(&render->draw, &render->gl);
         solid_draw_close(&render->solid, &render->gl);
         overlay_close(&render->overlay, &render->gl);

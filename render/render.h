@@ -2,7 +2,7 @@
  * Draws meshes as balloon skin, and sculptures of cubes, in one picture or as a stereo pair, without a display
  * or in a window.
  *
- *     struct render_view view = {.width = 1280, .height = 480, .stereo = RENDER_PARALLEL, .sorted = true};
+ *     struct render_view view = {.width = 1280, .height = 480, .stereo = RENDER_PARALLEL, .order = RENDER_SORT};
  *     const double from[3] = {0.4, 0.3, 1};
  *     if (render_fit_camera(&view, lower, upper, from, 0.1, err)) ...
  *     struct render *render;
@@ -41,13 +41,32 @@ enum render_stereo {
     RENDER_CROSSED,  /* the left eye's on the right: for crossed eyes */
 };
 
+/* How skins look. */
+enum render_style {
+    RENDER_PAPER, /* opacity and shininess as they are given, for every skin's triangle */
+    RENDER_LATEX, /* rubber: all that its stretch, its film's thickness, says */
+};
+
+/* In which order translucent triangles lie over one another. */
+enum render_order {
+    RENDER_NONE, /* as they come */
+    RENDER_SORT, /* back to front by their centroids: wrong where triangles overlap in depth */
+    RENDER_PEEL, /* exact: layer by layer, as many times over as layers lie over one another */
+    RENDER_LIST, /* exact: a list for each pixel; peeled where OpenGL has no storage buffers (4.3) */
+};
+
+enum { RENDER_SAMPLES_MAX = 4 };
+
 struct render_view {
     int width, height; /* of the whole picture, 1 .. IMAGE_SIDE_MAX; the width even in stereo */
     struct render_camera camera;
     enum render_stereo stereo;
-    bool sorted; /* translucent triangles are drawn back to front, by their centroids; else as they come */
-    bool smooth_edges; /* outlines are drawn with four samples a pixel */
-    bool floor;        /* a soft shadow lies on the plane y = floor_height */
+    enum render_style style;
+    enum render_order order;
+    int samples; /* each pixel is the mean of samples x samples; 0 or 1: one, at most RENDER_SAMPLES_MAX */
+    bool
+        smooth_edges; /* outlines are drawn with four samples a pixel: not with several `samples`, nor where order is exact */
+    bool floor; /* a soft shadow lies on the plane y = floor_height */
     double floor_height;
 };
 
@@ -57,6 +76,9 @@ struct render_skin {
     const unsigned char *active; /* [triangle_count] 0: not drawn; NULL: all are */
     const float *opacity;        /* [triangle_count] 0 .. 1 when seen straight on; NULL: opaque */
     const float *shininess; /* [triangle_count] exponent of the highlight, 0: none, 100: gloss; NULL: 0 */
+    const float *stretch;   /* [triangle_count] area over area at rest, for RENDER_LATEX; NULL: 1 */
+    float rest_opacity;     /* of latex, straight on, where the stretch is 1; its opacity is not looked at */
+    float rest_shininess;   /* the same, exponent of the highlight */
     float colour[3];        /* red, green, blue, 0 .. 1, linear light */
     bool facets;            /* each triangle keeps its own opacity and shininess, as in the paper; else
                                     they are averaged at the points and drawn smoothly */

@@ -95,7 +95,8 @@ void app_draw(struct app *app)
         scene.line_count = make_lines(app, lines);
         status = draw_sculpture(app, &view, &scene, &err);
     } else {
-        view.sorted = view.smooth_edges = true;
+        view.order = RENDER_SORT;
+        view.smooth_edges = true;
         if (app->open)
             scene.skins = balloon_skins(&app->balloon, &scene.skin_count, &view.camera);
         status = render_show(app->render, &view, &scene, &err);

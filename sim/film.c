@@ -16,8 +16,6 @@ struct film {
 /* The scene measures in radii of the ball around all points at rest. */
 static void set_camera(struct render_view *view, const struct sim *sim, const double centre[3], double radius)
 {
-    static const enum render_stereo stereo[] = {
-        [SCENE_MONO] = RENDER_MONO, [SCENE_PARALLEL] = RENDER_PARALLEL, [SCENE_CROSSED] = RENDER_CROSSED};
     const struct scene_view *scene = &sim->scene->view;
     struct render_camera *camera = &view->camera;
     for (int i = 0; i < 3; i++) {
@@ -28,10 +26,7 @@ static void set_camera(struct render_view *view, const struct sim *sim, const do
     camera->field_of_view_deg = scene->field_of_view;
     camera->screen_distance = vec3_distance(camera->eye, camera->target);
     camera->eye_distance = scene->eye_distance * camera->screen_distance;
-    view->width = scene->size[0];
-    view->height = scene->size[1];
-    view->stereo = stereo[scene->stereo];
-    view->sorted = true;
+    skins_view(scene, view);
     view->smooth_edges = true;
     view->floor = true;
     view->floor_height = centre[1] - 1.8 * radius; /* it floats, with room to swell */

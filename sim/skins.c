@@ -23,7 +23,10 @@ static void look_into(struct skins *skins, size_t i)
     skins->skins[i] = (struct render_skin){.mesh = &skins->meshes[i],
                                            .active = sim->triangle_active + b->triangle_begin,
                                            .opacity = skins->opacity + b->triangle_begin,
-                                           .shininess = skins->shininess + b->triangle_begin};
+                                           .shininess = skins->shininess + b->triangle_begin,
+                                           .stretch = skins->stretch + b->triangle_begin,
+                                           .rest_opacity = (float)b->scene->opacity,
+                                           .rest_shininess = (float)b->scene->shininess};
     for (int k = 0; k < 3; k++)
         skins->skins[i].colour[k] = linear_light(b->scene->colour[k]);
 }
@@ -35,10 +38,11 @@ enum status skins_init(struct skins *skins, struct sim *sim, struct error *err)
     skins->skins = array_new(sim->balloon_count, sizeof *skins->skins);
     skins->opacity = array_new(sim->triangle_count, sizeof *skins->opacity);
     skins->shininess = array_new(sim->triangle_count, sizeof *skins->shininess);
+    skins->stretch = array_new(sim->triangle_count, sizeof *skins->stretch);
     skins->position = array_new(sim->point_count, sizeof *skins->position);
     skins->normal = array_new(sim->point_count, sizeof *skins->normal);
     if (!skins->meshes || !skins->skins || !skins->position || !skins->normal || !skins->opacity ||
-        !skins->shininess) {
+        !skins->shininess || !skins->stretch) {
         skins_clear(skins);
         return error_no_memory(err, "the skins");
     }
@@ -55,7 +59,29 @@ void skins_clear(struct skins *skins)
     free(skins->normal);
     free(skins->opacity);
     free(skins->shininess);
+    free(skins->stretch);
     *skins = (struct skins){0};
+}
+
+/* Of the edges at rest, by Heron's formula in Kahan's stable form ("Miscalculating area and angles of a needle-like
+ * triangle", 2014): a >= b >= c. */
+static double rest_area(const struct sim *sim, const uint32_t edge[3])
+{
+    double a = sim->rest_length[edge[0]], b = sim->rest_length[edge[1]], c = sim->rest_length[edge[2]];
+    const double most = fmax(a, fmax(b, c)), least = fmin(a, fmin(b, c));
+    b = fmax(fmin(a, b), fmin(fmax(a, b), c));
+    a = most;
+    c = least;
+    return sqrt(fmax((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)), 0)) / 4;
+}
+
+static float area_stretch(const struct sim *sim, uint32_t t)
+{
+    const uint32_t *corner = sim->triangle_point[t];
+    double twice[3];
+    vec3_triangle(sim->position[corner[0]], sim->position[corner[1]], sim->position[corner[2]], twice);
+    const double rest = rest_area(sim, sim->triangle_edge[t]), area = vec3_length(twice) / 2;
+    return rest > 0 && isfinite(area) ? (float)fmin(area / rest, 1e6) : 1;
 }
 
 void skins_update(struct skins *skins)
@@ -68,6 +94,24 @@ void skins_update(struct skins *skins)
             skins->normal[p][i] = sim->normal[p][i];
         }
     sim_material(skins->sim, skins->opacity, skins->shininess);
+    for (uint32_t t = 0; t < sim->triangle_count; t++)
+        skins->stretch[t] = area_stretch(sim, t);
+}
+
+void skins_view(const struct scene_view *scene, struct render_view *view)
+{
+    static const enum render_stereo stereo[] = {
+        [SCENE_MONO] = RENDER_MONO, [SCENE_PARALLEL] = RENDER_PARALLEL, [SCENE_CROSSED] = RENDER_CROSSED};
+    static const enum render_order orders[] = {[SCENE_ORDER_NONE] = RENDER_NONE,
+                                               [SCENE_ORDER_SORT] = RENDER_SORT,
+                                               [SCENE_ORDER_PEEL] = RENDER_PEEL,
+                                               [SCENE_ORDER_LIST] = RENDER_LIST};
+    view->width = scene->size[0];
+    view->height = scene->size[1];
+    view->stereo = stereo[scene->stereo];
+    view->style = scene->style == SCENE_LATEX ? RENDER_LATEX : RENDER_PAPER;
+    view->order = orders[scene->order];
+    view->samples = scene->samples;
 }
 
 double skins_ball(const struct sim *sim, double centre[3])

@@ -10,16 +10,19 @@ struct skins {
     struct mesh *meshes;   /* [sim->balloon_count] look into these arrays and the sim's: not to be cleared */
     double (*position)[3]; /* [sim->point_count] */
     double (*normal)[3];   /* [sim->point_count] */
-    struct render_skin *skins;  /* [sim->balloon_count] what render_draw() takes */
-    float *opacity, *shininess; /* [sim->triangle_count] */
+    struct render_skin *skins;            /* [sim->balloon_count] what render_draw() takes */
+    float *opacity, *shininess, *stretch; /* [sim->triangle_count]; of area */
 };
 
 /* `sim` is borrowed. Errors: STATUS_NO_MEMORY; then *skins is empty. */
 enum status skins_init(struct skins *skins, struct sim *sim, struct error *err);
 void skins_clear(struct skins *skins);
 
-/* Normals, opacity and shininess of the state as it is: before each picture. */
+/* Normals, opacity, shininess and stretch of the state as it is: before each picture. */
 void skins_update(struct skins *skins);
+
+/* What the scene says of the picture but its camera: size, stereo, style, order, samples. */
+void skins_view(const struct scene_view *scene, struct render_view *view);
 
 /* The ball around all points as they are; returns its radius. */
 double skins_ball(const struct sim *sim, double centre[3]);

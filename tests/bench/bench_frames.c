@@ -49,7 +49,7 @@ static void open_scene(struct scene *scene)
     scene->view = (struct render_view){.width = 1280,
                                        .height = 480,
                                        .stereo = RENDER_PARALLEL,
-                                       .sorted = true,
+                                       .order = RENDER_SORT,
                                        .floor = true,
                                        .floor_height = -1};
     bench_check(render_fit_camera(&scene->view, lower, upper, from, 0.1, &err), &err);

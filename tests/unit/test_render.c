@@ -10,7 +10,7 @@ static struct render_view square_view(void)
 {
     return (struct render_view){.width = 200,
                                 .height = 200,
-                                .sorted = true,
+                                .order = RENDER_SORT,
                                 .camera = {.eye = {0, 0, 10},
                                            .up = {0, 1, 0},
                                            .field_of_view_deg = 2 * atan(0.2) * 180 / M_PI,
@@ -174,7 +174,7 @@ static void translucent_skins_are_drawn_back_to_front(void **state)
     struct image one = drawn(&view, right, 2), other = drawn(&view, wrong, 2);
     assert_same_picture(&one, &other);
     assert_true(is_red(pixel(&one, 100, 100)));
-    view.sorted = false;
+    view.order = RENDER_NONE;
     struct image unsorted = drawn(&view, wrong, 2);
     assert_true(is_blue(pixel(&unsorted, 100, 100)));
     image_clear(&one);
