@@ -9,6 +9,7 @@ void scene_clear(struct scene *scene)
     for (size_t i = 0; i < scene->balloon_count; i++) {
         free(scene->balloons[i].mesh);
         free(scene->balloons[i].spring_by_height.profile.row);
+        free(scene->balloons[i].membrane.ogden.row);
     }
     free(scene->balloons);
     free(scene->obstacles);
@@ -95,6 +96,8 @@ enum status scene_check(struct scene *scene, struct error *err)
         enum status status = check_profile(scene, i, err);
         if (!status)
             status = check_rip(scene, i, err);
+        if (!status)
+            status = scene_check_membrane(scene, i, err);
         if (!status)
             status = scene_check_gas(scene, i, err);
         if (!status)

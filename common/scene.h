@@ -109,6 +109,16 @@ struct scene_drag {
     double air_density, coefficient, wind[3];
 };
 
+struct scene_membrane {
+    bool on;
+    unsigned line;
+    int law; /* enum scene_law */
+    double shear_modulus, thickness, density;
+    double mooney_ratio, gent_limit;
+    struct scene_profile ogden; /* m_p, alpha_p */
+    double compression, viscosity;
+};
+
 struct scene_balloon {
     char *mesh;         /* path; relative ones already joined to the scene's folder */
     double radius;      /* mean distance of the points from their centre; 0: as the mesh has it */
@@ -122,6 +132,7 @@ struct scene_balloon {
     double opacity, shininess; /* at rest */
     struct scene_spring_by_height spring_by_height;
     struct scene_rip rip;
+    struct scene_membrane membrane;
     struct scene_gas gas;
     struct scene_tube tube;
     struct scene_pins pins;
@@ -192,13 +203,18 @@ extern const char *const scene_stereo_names[];
 extern const char *const scene_style_names[];
 extern const char *const scene_order_names[];
 extern const char *const scene_shape_names[];
+extern const char *const scene_law_names[];
 enum { SCENE_SYMPLECTIC_EULER }; /* the first of the integrators: the paper's */
 enum scene_guard { SCENE_GUARD_SUBSTEP, SCENE_GUARD_REFUSE, SCENE_GUARD_OFF };
 enum scene_shape { SCENE_SPHERE, SCENE_BOX };
 enum scene_pressure_on { SCENE_ON_POINTS, SCENE_ON_AREAS };
 enum scene_process { SCENE_ISOTHERMAL, SCENE_ADIABATIC };
+<<<<<<< 9289c68651ea0f79245f3c7f57b6ae098ca971eb
 enum scene_style { SCENE_LATEX, SCENE_PAPER };
 enum scene_order { SCENE_ORDER_NONE, SCENE_ORDER_SORT, SCENE_ORDER_PEEL, SCENE_ORDER_LIST };
+=======
+enum scene_law { SCENE_NEO_HOOKEAN, SCENE_MOONEY_RIVLIN, SCENE_GENT, SCENE_OGDEN };
+>>>>>>> e14ea36bc6e8a40b0bdb713efd91fd689148e836
 enum scene_stereo { SCENE_MONO, SCENE_PARALLEL, SCENE_CROSSED };
 
 /* Reads a scene file. *scene must be empty ({0}) and is so again after a failure. Errors: STATUS_FILE, STATUS_INPUT with

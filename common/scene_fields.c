@@ -23,8 +23,12 @@ const char *const scene_pressure_on_names[] = {"points", "areas", NULL};
 const char *const scene_process_names[] = {"isothermal", "adiabatic", NULL};
 const char *const scene_stereo_names[] = {"mono", "parallel", "crossed", NULL};
 const char *const scene_shape_names[] = {"sphere", "box", NULL};
+<<<<<<< 9289c68651ea0f79245f3c7f57b6ae098ca971eb
 const char *const scene_style_names[] = {"latex", "paper", NULL};
 const char *const scene_order_names[] = {"none", "sort", "peel", "list", NULL};
+=======
+const char *const scene_law_names[] = {"neo-hookean", "mooney-rivlin", "gent", "ogden", NULL};
+>>>>>>> e14ea36bc6e8a40b0bdb713efd91fd689148e836
 
 #define CHOICES_NUMBER(key) NULL
 #define CHOICES_WHOLE(key)  NULL
@@ -55,6 +59,7 @@ const char *const scene_order_names[] = {"none", "sort", "peel", "list", NULL};
 #define OBSTACLES_ROW(...)        ROW(scene_obstacles, __VA_ARGS__)
 #define NEEDLES_ROW(...)          ROW(scene_needles, __VA_ARGS__)
 #define CONTACT_ROW(...)          ROW(scene_contact, __VA_ARGS__)
+#define MEMBRANE_ROW(...)         ROW(scene_membrane, __VA_ARGS__)
 #define SCHEDULE_ROW(...)         ROW(scene_schedule, __VA_ARGS__)
 
 static const struct scene_field time_fields[] = {SCENE_TIME_FIELDS(TIME_ROW)};
@@ -73,6 +78,7 @@ static const struct scene_field pins_fields[] = {SCENE_PINS_FIELDS(PINS_ROW)};
 static const struct scene_field string_fields[] = {SCENE_STRING_FIELDS(STRING_ROW)};
 static const struct scene_field gravity_fields[] = {SCENE_GRAVITY_FIELDS(GRAVITY_ROW)};
 static const struct scene_field drag_fields[] = {SCENE_DRAG_FIELDS(DRAG_ROW)};
+static const struct scene_field membrane_fields[] = {SCENE_MEMBRANE_FIELDS(MEMBRANE_ROW)};
 static const struct scene_field schedule_fields[] = {SCENE_SCHEDULE_FIELDS(SCHEDULE_ROW)};
 
 #define FIELDS(list) list, sizeof(list) / sizeof(list)[0]
@@ -89,6 +95,8 @@ const struct scene_block scene_blocks[] = {
     {"spring_by_height", "balloons", false, FIELDS(spring_by_height_fields), EFFECT(spring_by_height),
      "Spring constants that vary with height, as the skin's thickness does"},
     {"rip", "balloons", false, FIELDS(rip_fields), EFFECT(rip), "An artificial rip"},
+    {"membrane", "balloons", false, FIELDS(membrane_fields), EFFECT(membrane),
+     "The skin as a membrane of rubber, in place of springs"},
     {"gas", "balloons", false, FIELDS(gas_fields), EFFECT(gas),
      "What is sealed in, in place of a given pressure"},
     {"tube", "balloons", false, FIELDS(tube_fields), EFFECT(tube), "Joins the gas of two balloons"},

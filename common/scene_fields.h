@@ -156,6 +156,21 @@
     X(damping, NUMBER, 0, 1e12, "1", "force s/length", 0, "while it is taut", "")                   \
     X(weight, NUMBER, 0, 1e9, "0", "mass", 0, "at the other end; 0: that end is held", "")
 
+#define SCENE_MEMBRANE_FIELDS(X)                                                                          \
+    X(law, CHOICE, 0, 0, "\"neo-hookean\"", "", 0, "how stress follows stretch", "Ogden 1972")            \
+    X(shear_modulus, NUMBER, 1e-9, 1e15, "20", "force/length^2", 0, "of the rubber, at small strain", "") \
+    X(thickness, NUMBER, 0, 1e6, "0", "length", 0, "of the skin at rest; to be given", "")                \
+    X(density, NUMBER, 1e-15, 1e9, "0.0144", "mass/length^3", 0,                                          \
+      "of the rubber, which gives the points their masses in place of point_mass", "")                    \
+    X(mooney_ratio, NUMBER, 0, 100, "0.1", "", 0, "C2 over C1 of the Mooney-Rivlin law", "Mooney 1940")   \
+    X(gent_limit, NUMBER, 0.1, 1e6, "30", "", 0, "I1 - 3 at which the Gent law locks", "Gent 1996")       \
+    X(ogden, PAIRS, -1e12, 1e12, "( (6.3e5, 1.3), (1.2e3, 5.0), (-1e4, -2.0) )", "", 0,                   \
+      "rows (m, alpha) of the Ogden law, made to agree with shear_modulus", "Ogden 1972")                 \
+    X(compression, NUMBER, 0, 1, "0.05", "", 0,                                                           \
+      "share of the stress that is kept where the skin wrinkles; 1: it never wrinkles", "Pipkin 1986")    \
+    X(viscosity, NUMBER, 0, 1e12, "0.5", "force s/length^2", 0,                                           \
+      "stress over rate of stretch, in the skin's plane", "Kelvin and Voigt")
+
 #define SCENE_SCHEDULE_FIELDS(X)                                                                \
     X(at, NUMBER, 0, 1e9, "0", "s", 0, "when the other keys of this entry change", "paper 3.5") \
     X(balloon, WHOLE, -1, 1e6, "-1", "", 0, "number of the balloon, from 0; -1: all", "")

@@ -6,6 +6,7 @@
 const struct effect *const effects[] = {
     &effect_spring_by_height,
     &effect_rip,
+    &effect_membrane,
     NULL,
 };
 

@@ -6,5 +6,6 @@
 
 extern const struct effect effect_spring_by_height;
 extern const struct effect effect_rip;
+extern const struct effect effect_membrane;
 
 #endif

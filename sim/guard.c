@@ -1,4 +1,5 @@
 #include "sim/guard_bound.h"
+#include "sim/membrane.h"
 #include "sim/vectors.h"
 
 #include <math.h>
@@ -68,6 +69,11 @@ static void find_reach(struct sim *sim)
             energy += sim_spring_energy(sim, e);
         scale += sim->current_spring_const[e] * sim->rest_length[e] * sim->rest_length[e];
     }
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
+        if (b->membrane) {
+            energy += membrane_elastic(sim, b);
+            scale += membrane_scale(b);
+        }
     memory->least = 1e-12 * scale;
     memory->reach = fmax(memory->reach, sqrt(2 * energy));
 }

@@ -1,4 +1,5 @@
 #include "sim/guard_bound.h"
+#include "sim/membrane.h"
 
 #include <math.h>
 #include <string.h>
@@ -62,7 +63,10 @@ static void find_edges(const struct sim *sim)
                 continue;
             const uint32_t *p = sim->edge_point[e];
             const double x = guard->x[p[0]] + guard->x[p[1]];
-            const double spring = sim->current_spring_const[e] * x, damper = b->now->damping * x;
+            const struct membrane *m = b->membrane;
+            const double weight = m ? m->edge_weight[e - b->edge_begin] : 1;
+            const double spring = (m ? weight * m->stiffness : sim->current_spring_const[e]) * x,
+                         damper = (m ? weight * m->damping : b->now->damping) * x;
             for (int k = 0; k < 2; k++) {
                 guard->springs[p[k]] += spring;
                 guard->dampers[p[k]] += damper;

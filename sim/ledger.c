@@ -1,6 +1,7 @@
 #include "sim/ledger.h"
 #include "common/threads.h"
 #include "common/vec3.h"
+#include "sim/membrane.h"
 
 /* Sums are over this many shares of the points or edges, whoever works on them: equal to the bit for any number of threads. */
 enum { SHARES = 64 };
@@ -65,6 +66,7 @@ void ledger_rates(struct sim *sim)
             sim,
             (struct sum){.power = damper_power, .balloon = b, .begin = b->edge_begin, .end = b->edge_end});
     }
+    effects_power(sim, &rate[LEDGER_DISSIPATED], &rate[LEDGER_PRESSURE]);
 }
 
 double ledger_elastic(const struct sim *sim, uint32_t begin, uint32_t end)
@@ -87,6 +89,9 @@ static double kinetic(const struct sim *sim)
 void ledger_begin(struct sim *sim)
 {
     sim->ledger.account.begin = kinetic(sim) + ledger_elastic(sim, 0, sim->edge_count);
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
+        if (b->membrane)
+            sim->ledger.account.begin += membrane_elastic(sim, b);
     sim->ledger.account.fracture = sim->ledger.account.user = 0;
     for (uint32_t i = 0; i < LEDGER_SCALARS; i++)
         sim->scalar[sim->ledger.first + i] = 0;

@@ -1,6 +1,6 @@
 /* What the log tells about a state. */
 #include "common/vec3.h"
-#include "sim/sim.h"
+#include "sim/membrane.h"
 
 /* Pieces are a forest over the edges, in which each active triangle joins its three: two triangles hang together where
  * they share an edge. */
@@ -97,7 +97,7 @@ static uint32_t measure_shape(const struct sim *sim, const struct sim_balloon *b
     return count;
 }
 
-static void measure_edges(const struct sim *sim, struct sim_measures *m)
+static void measure_elastic(struct sim *sim, struct sim_measures *m)
 {
     for (uint32_t e = 0; e < sim->edge_count; e++)
         if (sim->edge_active[e]) {
@@ -107,6 +107,9 @@ static void measure_edges(const struct sim *sim, struct sim_measures *m)
                 m->max_stretch = fmax(m->max_stretch, length / sim->rest_length[e]);
             m->edges_active++;
         }
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
+        if (b->membrane)
+            m->elastic_energy += membrane_elastic(sim, b);
 }
 
 struct sim_measures sim_measure(struct sim *sim)
@@ -114,7 +117,7 @@ struct sim_measures sim_measure(struct sim *sim)
     struct sim_measures m = {0};
     uint32_t count = 0;
     measure_skin(sim, &m);
-    measure_edges(sim, &m);
+    measure_elastic(sim, &m);
     for (size_t i = 0; i < sim->balloon_count; i++)
         count += measure_shape(sim, &sim->balloons[i], &m);
     if (count > 0)

@@ -21,7 +21,7 @@ static void change_balloon(struct sim *sim, struct sim_balloon *balloon, const c
 {
     if (!strcmp(key, "pressure")) {
         balloon->now->pressure = value;
-    } else if (!strcmp(key, "damping")) {
+    } else if (!strcmp(key, "damping") && !balloon->membrane) {
         balloon->now->damping = value;
     } else if (!strcmp(key, "threshold")) {
         balloon->now->threshold_length = value * balloon->mean_rest_length;

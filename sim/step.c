@@ -5,8 +5,26 @@
 #include "sim/guard.h"
 #include "sim/kernels.h"
 #include "sim/ledger.h"
+#include "sim/membrane_kernels.h"
 
 #include <math.h>
+
+/* What resists being stretched: springs and dampers, as in the paper, or the triangles themselves. */
+static void coming_skin(struct sim *sim, const struct sim_part *part)
+{
+    if (part->balloon->membrane)
+        part->balloon->membrane->kernels->coming_forces(sim, part);
+    else
+        sim->kernels->coming_forces(sim, part);
+}
+
+static void skin_forces(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk)
+{
+    if (part->balloon->membrane)
+        part->balloon->membrane->kernels->forces(sim, part, chunk);
+    else
+        sim->kernels->edge_forces(sim, part, chunk);
+}
 
 /* Chunk by chunk, so that a large balloon goes through the caches once. */
 static void part_forces(struct sim *sim, const struct sim_part *part, void *context)
@@ -16,10 +34,10 @@ static void part_forces(struct sim *sim, const struct sim_part *part, void *cont
     for (const struct sim_chunk *c = part->chunks; c < part->chunks + part->chunk_count; c++) {
         k->clear_points(sim, c); /* 1  forces and normals are 0             */
         if (c == part->chunks) {
-            k->coming_forces(sim, part);
+            coming_skin(sim, part);
             k->coming_normals(sim, part);
         }
-        k->edge_forces(sim, part, c);      /* 2  springs and dampers                  */
+        skin_forces(sim, part, c);         /* 2  springs and dampers, or a membrane   */
         k->triangle_normals(sim, part, c); /* 3  face normals, added to the points    */
         k->pressure_forces(sim, part, c);  /* 4  pressure along each point's normal   */
     }
@@ -52,6 +70,17 @@ static void break_edges(struct sim *sim)
     }
 }
 
+/* What a membrane held there is gone with it. */
+static void let_triangle_go(struct sim *sim, uint32_t triangle)
+{
+    const struct sim_balloon *b = sim->balloons;
+    while (triangle >= b->triangle_end)
+        b++;
+    if (sim->ledger.on && b->membrane)
+        sim->ledger.account.fracture += membrane_triangle_energy(sim, b, triangle);
+    sim->triangle_active[triangle] = 0;
+}
+
 /* Part 3: "if more than one edge is inactive, set triangle inactive". */
 static void tear_triangles(struct sim *sim)
 {
@@ -62,8 +91,8 @@ static void tear_triangles(struct sim *sim)
     for (uint32_t t = 0; t < sim->triangle_count; t++) {
         const uint32_t *e = sim->triangle_edge[t];
         const int left = sim->edge_active[e[0]] + sim->edge_active[e[1]] + sim->edge_active[e[2]];
-        if (left < 2)
-            sim->triangle_active[t] = 0;
+        if (left < 2 && sim->triangle_active[t])
+            let_triangle_go(sim, t);
     }
 }
 

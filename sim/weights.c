@@ -1,5 +1,6 @@
 #include "sim/weights.h"
 
+#include "sim/membrane.h"
 #include "sim/vectors.h"
 
 #include <float.h>
@@ -10,6 +11,8 @@ static double breathing_rate(const struct sim *sim, const struct sim_balloon *b)
     double stiffness = 0, inertia = 0;
     for (uint32_t e = b->edge_begin; e < b->edge_end; e++)
         stiffness += sim->current_spring_const[e] * sim->rest_length[e] * sim->rest_length[e];
+    if (b->membrane) /* stretched alike both ways it stores mu V 12 e^2/2, whatever the law */
+        stiffness = 12 * membrane_scale(b);
     for (uint32_t p = b->point_begin; p < b->point_end; p++)
         for (int i = 0; i < 3; i++) {
             const double arm = sim->position[p][i] - b->centre[i];

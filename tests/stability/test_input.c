@@ -94,6 +94,28 @@ static void masses_that_are_none_are_refused(void **state)
     }
 }
 
+/* What a block cannot be without, whichever of its keys is tried. */
+static const char *needed_by(const char *path)
+{
+    return strncmp(path, "balloons[0].membrane", 20) == 0 ? "balloons[0].membrane.thickness=0.4"
+                                                          : "time.step=0.025";
+}
+
+/* A key that calls for a block which wants more is refused before anything runs. */
+static bool is_refused(const char *needed, const char *change)
+{
+    struct error err = {0};
+    struct scene scene = {0};
+    assert_ok(scene_from_mesh("sphere", &scene, &err), &err);
+    assert_ok(scene_set(&scene, needed, &err), &err);
+    assert_ok(scene_set(&scene, change, &err), &err);
+    const enum status status = scene_check(&scene, &err);
+    if (status)
+        assert_refused(status, STATUS_INPUT, "sphere", &err);
+    scene_clear(&scene);
+    return status != STATUS_OK;
+}
+
 /* Either it runs without making energy, or it is refused or given up with a reason; never a number that is none. */
 static void survives_its_extremes(const struct scene_field *field, const char *path)
 {
@@ -102,10 +124,13 @@ static void survives_its_extremes(const struct scene_field *field, const char *p
     for (int end = 0; end < 2; end++) {
         char change[128];
         snprintf(change, sizeof change, "%s=%.17e", path, end ? field->most : field->least);
+        const char *needed = needed_by(path);
+        if (is_refused(needed, change))
+            continue;
         struct balloon b;
         struct error err = {0};
         enum status status = STATUS_OK;
-        open_balloon(&b, 0, SETTINGS("time.guard=substep", change));
+        open_balloon(&b, 0, SETTINGS("time.guard=substep", needed, change));
         for (int i = 0; i < 50 && !status; i++)
             status = sim_step(&b.sim, &err);
         if (status)

@@ -1,0 +1,47 @@
+/* What the blocks about the skin must say, and must not say together. */
+#include "common/scene_checks.h"
+
+#include <math.h>
+#include <string.h>
+
+static enum status check_ogden(const struct scene *scene, size_t number, struct error *err)
+{
+    enum { TERMS_MAX = 6 };
+    const struct scene_membrane *m = &scene->balloons[number].membrane;
+    double modulus = 0;
+    for (size_t i = 0; i < m->ogden.count; i++) {
+        const double alpha = m->ogden.row[i][1];
+        if (!(fabs(alpha) >= 0.01 && fabs(alpha) <= 20))
+            return scene_contradiction(
+                scene, number, "membrane.ogden", m->line, err,
+                "alpha of row %zu is %g; it must be from 0.01 to 20, or from -20 to -0.01", i + 1, alpha);
+        modulus += m->ogden.row[i][0] * alpha / 2;
+    }
+    if (m->ogden.count > TERMS_MAX)
+        return scene_contradiction(scene, number, "membrane.ogden", m->line, err,
+                                   "there are %zu rows; at most %d are taken", m->ogden.count, TERMS_MAX);
+    if (!(modulus > 0))
+        return scene_contradiction(scene, number, "membrane.ogden", m->line, err,
+                                   "the sum of m alpha is %g; of rubber, which resists, it is above 0",
+                                   2 * modulus);
+    return STATUS_OK;
+}
+
+enum status scene_check_membrane(const struct scene *scene, size_t number, struct error *err)
+{
+    const struct scene_balloon *b = &scene->balloons[number];
+    if (!b->membrane.on)
+        return STATUS_OK;
+    if (!(b->membrane.thickness > 0))
+        return scene_contradiction(scene, number, "membrane", b->membrane.line, err,
+                                   "give thickness; that of a toy balloon is about a hundredth of its "
+                                   "radius (%g)",
+                                   b->radius / 100);
+    if (b->spring_by_height.on)
+        return scene_contradiction(scene, number, "membrane", b->membrane.line, err,
+                                   "it has no springs for spring_by_height; leave out one of the two");
+    if (!strcmp(scene_integrator_names[scene->time.integrator], "xpbd"))
+        return scene_contradiction(scene, number, "membrane", b->membrane.line, err,
+                                   "time.integrator \"xpbd\" moves springs only; take \"auto\"");
+    return check_ogden(scene, number, err);
+}

@@ -1,0 +1,207 @@
+/* The skin as a membrane, in place of its springs (membrane.h): what is made of the scene's block when a simulation is opened, and
+ * what the guard and the implicit methods ask. */
+#include "common/threads.h"
+#include "common/vec3.h"
+#include "sim/effects.h"
+#include "sim/guard.h"
+#include "sim/membrane_kernels.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static bool wanted(const struct scene_balloon *balloon)
+{
+    return balloon->membrane.on;
+}
+
+static double next_coefficient(double before, double v, int k)
+{
+    return before * (v * v - (k - 1) * (k - 1)) / (k * (2 * k - 1));
+}
+
+static void set_ogden(struct membrane_law *law, const struct scene_profile *rows)
+{
+    double modulus = 0;
+    law->terms = (int)rows->count;
+    for (int p = 0; p < law->terms; p++)
+        modulus += rows->row[p][0] * rows->row[p][1] / 2;
+    for (int p = 0; p < law->terms; p++) {
+        law->power[p] = rows->row[p][1];
+        law->weight[p] = rows->row[p][0] / modulus / law->power[p];
+        law->series[p][0] = 1;
+        for (int k = 1; k < MEMBRANE_SERIES; k++)
+            law->series[p][k] = next_coefficient(law->series[p][k - 1], law->power[p] / 2, k);
+    }
+}
+
+static struct membrane_law law_of(const struct scene_membrane *block)
+{
+    struct membrane_law law = {.kind = (enum membrane_kind)block->law,
+                               .c1 = 1,
+                               .limit = block->gent_limit,
+                               .compression = block->compression};
+    if (law.kind == MEMBRANE_MOONEY_RIVLIN) {
+        law.c1 = 1 / (1 + block->mooney_ratio);
+        law.c2 = 1 - law.c1;
+    } else if (law.kind == MEMBRANE_OGDEN) {
+        set_ogden(&law, &block->ogden);
+    }
+    return law;
+}
+
+/* A triangle's frame at rest: the first axis along its first side. A triangle without area resists nothing and weighs nothing. */
+static void set_rest(struct sim *sim, const struct sim_balloon *b, uint32_t t, double rest[4])
+{
+    const uint32_t *p = sim->triangle_point[t];
+    double r1[3], r2[3], cross[3];
+    vec3_sub(sim->position[p[1]], sim->position[p[0]], r1);
+    vec3_sub(sim->position[p[2]], sim->position[p[0]], r2);
+    vec3_cross(r1, r2, cross);
+    const double length = vec3_length(r1), twice = vec3_length(cross);
+    if (!(twice > 0))
+        return;
+    const struct membrane *m = b->membrane;
+    rest[0] = 1 / length;
+    rest[1] = -vec3_dot(r1, r2) / (length * twice);
+    rest[2] = length / twice;
+    rest[3] = m->modulus * m->thickness * twice / 2;
+}
+
+/* A third of each triangle's mass at its corners. What carries no skin keeps the mass that the scene gives points. */
+static void set_masses(struct sim *sim, const struct sim_balloon *b)
+{
+    const double density = b->scene->membrane.density, thickness = b->membrane->thickness;
+    for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++)
+        if (membrane_rest_area(b, t) > 0)
+            for (int k = 0; k < 3; k++)
+                sim->mass[sim->triangle_point[t][k]] = 0;
+    for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++)
+        for (int k = 0; k < 3; k++)
+            sim->mass[sim->triangle_point[t][k]] += density * thickness * membrane_rest_area(b, t) / 3;
+}
+
+/* With these the sum of w |x_p - x_q|^2 over the edges is that of area |dF|^2 over the triangles (Pinkall and Polthier, Experimental
+ * Mathematics 2, 1993). Leaving out negative ones only makes it larger. */
+static void set_weights(const struct sim *sim, const struct sim_balloon *b)
+{
+    double *weight = b->membrane->edge_weight;
+    for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++)
+        for (int k = 0; k < 3; k++)
+            weight[sim->triangle_edge[t][k] - b->edge_begin] += membrane_edge_share(b, t, k);
+    for (uint32_t e = 0; e < b->edge_end - b->edge_begin; e++)
+        weight[e] = fmax(weight[e], 0);
+}
+
+/* The edges go on telling when they are overlong, but pull no more. */
+static void let_springs_go(struct sim *sim, struct sim_balloon *b)
+{
+    for (uint32_t e = b->edge_begin; e < b->edge_end; e++)
+        sim->init_spring_const[e] = sim->current_spring_const[e] = 0;
+    b->now->damping = 0;
+}
+
+/* What it is taken to be stretched to at first: a and D are 2 and 1 at rest. */
+static const double first_range[2] = {2.5, 0.8};
+
+/* Springs and dampers that are at least as stiff: |F dC/dt| / tr C <= 2 |dF/dt|. */
+static void bound(const struct sim *sim, const struct sim_balloon *b, const struct guard_rows *rows)
+{
+    (void)sim, (void)rows;
+    struct membrane *m = b->membrane;
+    m->stiffness = m->modulus * m->thickness * membrane_stiffness(&m->law, b->now->membrane_range);
+    m->damping = 2 * m->viscosity * m->thickness;
+}
+
+static enum status open(struct sim *sim, struct sim_balloon *b, struct error *err)
+{
+    const struct scene_membrane *block = &b->scene->membrane;
+    const uint32_t triangles = b->triangle_end - b->triangle_begin, edges = b->edge_end - b->edge_begin;
+    struct membrane *m = b->membrane = calloc(1, sizeof *m);
+    if (!m)
+        return error_no_memory(err, "the membrane");
+    m->law = law_of(block);
+    m->modulus = block->shear_modulus;
+    m->thickness = block->thickness;
+    m->viscosity = block->viscosity;
+    m->kernels = membrane_kernels_find();
+    m->rest = sim_table(sim, triangles, sizeof *m->rest);
+    m->edge_weight = sim_table(sim, edges, sizeof *m->edge_weight);
+    m->range = sim_table(sim, sim->part_count, sizeof *m->range);
+    if (!m->rest || !m->edge_weight || !m->range)
+        return error_no_memory(err, "the membrane");
+    for (uint32_t t = 0; t < triangles; t++)
+        set_rest(sim, b, b->triangle_begin + t, m->rest[t]);
+    set_masses(sim, b);
+    set_weights(sim, b);
+    let_springs_go(sim, b);
+    memcpy(b->now->membrane_range, first_range, sizeof first_range);
+    return STATUS_OK;
+}
+
+static void close(struct sim *sim, struct sim_balloon *b)
+{
+    (void)sim;
+    if (!b->membrane)
+        return;
+    free(b->membrane->rest);
+    free(b->membrane->edge_weight);
+    free(b->membrane->range);
+    free(b->membrane);
+    b->membrane = NULL;
+}
+
+static void product_part(struct sim *sim, const struct sim_part *part, void *context)
+{
+    const struct membrane *m = part->balloon->membrane;
+    if (m)
+        m->kernels->product(sim, part, context);
+}
+
+/* One call does the parts of all balloons that have a membrane: the first of them makes it. */
+static void product(struct sim *sim, struct sim_balloon *balloon, double a, double (*dx)[4], double b,
+                    double (*dv)[4], double (*df)[4])
+{
+    for (const struct sim_balloon *other = sim->balloons; other < balloon; other++)
+        if (other->membrane)
+            return;
+    sim_each_part(sim, product_part, &(struct jacobian_product){a, b, dx, dv, df});
+}
+
+/* Beyond these no law of rubber holds, or gets any stiffer. */
+static const double most_a = 1e6, least_d = MEMBRANE_CRUSHED / 2;
+
+/* What the guard took its stiffness for must hold what there is; with some room, so that it is seldom asked. */
+static void watch(struct sim *sim, struct sim_balloon *b)
+{
+    double *range = b->now->membrane_range, most = 0, least = INFINITY;
+    for (size_t i = 0; i < sim->part_count; i++)
+        if (sim->parts[i].balloon == b) {
+            most = fmax(most, b->membrane->range[i][0]);
+            least = fmin(least, b->membrane->range[i][1]);
+        }
+    if ((most <= range[0] || range[0] >= most_a) && (least >= range[1] || range[1] <= least_d))
+        return;
+    if (most > range[0])
+        range[0] = fmin(1.5 * most, most_a);
+    if (least < range[1])
+        range[1] = fmax(least / 2, least_d);
+    guard_outdated(sim);
+}
+
+static void power(struct sim *sim, struct sim_balloon *b, double *dissipated, double *work)
+{
+    (void)work;
+    *dissipated += membrane_dissipation(sim, b);
+}
+
+const struct effect effect_membrane = {.name = "membrane",
+                                       .phase = EFFECT_FORCES,
+                                       .wanted = wanted,
+                                       .open = open,
+                                       .close = close,
+                                       .after = watch,
+                                       .power = power,
+                                       .product = product,
+                                       .bound = bound,
+                                       .damps = true,
+                                       .source = "Bonet and Wood 2008; Pipkin 1986"};

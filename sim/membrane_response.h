@@ -1,0 +1,235 @@
+/*
+ * W(a, D) of a law (membrane_law.h) and its derivatives, of four triangles at once, with wrinkling (membrane.h). For the membrane's
+ * kernels, which are compiled once for each set of instructions.
+ */
+#ifndef SIM_MEMBRANE_RESPONSE_H
+#define SIM_MEMBRANE_RESPONSE_H
+
+#include "sim/lanes_math.h"
+#include "sim/membrane_law.h"
+
+/* How a triangle is stretched: a, D and (L1^2 - L2^2)^2, which a^2 - 4 D would give with few digits where L1 is near L2. */
+struct stretched {
+    lanes a, d, gap;
+};
+
+/* What of a response is asked for: at compile time, so that nothing else is worked out. */
+enum { RESPONSE_ENERGY = 1, RESPONSE_FIRST = 2, RESPONSE_SECOND = 4 };
+
+struct response {
+    lanes energy;     /* W / mu */
+    lanes a, d;       /* dW/da, dW/dD */
+    lanes aa, ad, dd; /* and the second derivatives */
+};
+
+static inline __attribute__((always_inline)) struct response mooney_response(const struct membrane_law *law,
+                                                                             struct stretched s, int asked)
+{
+    const double c1 = law->c1 / 2, c2 = law->c2 / 2;
+    const lanes i = 1 / s.d;
+    struct response w = {.a = c1 + c2 * i, .d = c2 - (c1 + c2 * s.a) * (i * i)};
+    if (asked & RESPONSE_ENERGY)
+        w.energy = c1 * (s.a + i - 3) + c2 * (s.d + s.a * i - 3);
+    if (asked & RESPONSE_SECOND) {
+        w.ad = -c2 * i * i;
+        w.dd = 2 * (c1 + c2 * s.a) * (i * i * i);
+    }
+    return w;
+}
+
+/* Past 99 % of its limit W goes on as a parabola in I1: a trial state may be anywhere. */
+static inline __attribute__((always_inline)) struct response gent_response(const struct membrane_law *law,
+                                                                           struct stretched s, int asked)
+{
+    const double last = .99, slope = 1 / (1 - last);
+    const lanes i = 1 / s.d, y = (s.a + i - 3) * (1 / law->limit);
+    const lanes inner = lanes_min(y, lanes_all(last)), past = y - inner, ratio = 1 / (1 - inner);
+    const lanes first = .5 * (ratio + slope * slope * past), second = (.5 / law->limit) * (ratio * ratio);
+    struct response w = {.a = first, .d = -first * (i * i)};
+    if (asked & RESPONSE_ENERGY)
+        w.energy = (.5 * law->limit) * (past * (ratio + .5 * slope * slope * past) - lanes_log(1 - inner));
+    if (asked & RESPONSE_SECOND) {
+        w.aa = second;
+        w.ad = -second * (i * i);
+        w.dd = second * (i * i * i * i) + 2 * first * (i * i * i);
+    }
+    return w;
+}
+
+/* T(x) = cosh(v arcosh x), Chebyshev's polynomial with a degree v that need not be whole, and its derivatives. Near x = 1 by its series,
+ * whose k-th coefficient is that before times (v^2 - (k-1)^2)/(k (2k - 1)); elsewhere by T' = v sinh(v y)/sinh y and
+ * (x^2 - 1) T'' = v^2 T - x T'. z = x - 1, y = arcosh x. */
+struct chebyshev {
+    lanes value, first, second;
+};
+
+static inline struct chebyshev chebyshev_series(const double *coefficient, lanes z)
+{
+    struct chebyshev t = {lanes_all(0), lanes_all(0), lanes_all(0)};
+    for (int k = MEMBRANE_SERIES - 1; k >= 0; k--) { /* Horner's scheme, three at once */
+        t.second = t.second * z + 2 * t.first;
+        t.first = t.first * z + t.value;
+        t.value = t.value * z + coefficient[k];
+    }
+    return t;
+}
+
+/* Up to this z the series will do: what it leaves out is about (2 v^2 z)^9/18!, below 1e-20 for v <= 10. */
+#define CHEBYSHEV_NEAR 1e-3
+
+static inline struct chebyshev chebyshev_far(double v, lanes z, lanes y)
+{
+    const lanes x = 1 + z, above = lanes_max(z * (2 + z), lanes_all(CHEBYSHEV_NEAR)),
+                root = lanes_sqrt(above);
+    const lanes grown = lanes_exp(v * y), shrunk = 1 / grown;
+    struct chebyshev t = {.value = .5 * (grown + shrunk), .first = (.5 * v) * (grown - shrunk) / root};
+    t.second = (v * v * t.value - x * t.first) / above;
+    return t;
+}
+
+/* x < 1, with cosines: only where both stretches of a crushed triangle are small. One by one, since it is seldom. */
+static inline struct chebyshev chebyshev_below(double v, lanes z)
+{
+    struct chebyshev t;
+    for (int i = 0; i < 4; i++) {
+        const double x = 1 + fmin(z[i], -CHEBYSHEV_NEAR), above = x * x - 1, angle = acos(x);
+        t.value[i] = cos(v * angle);
+        t.first[i] = v * sin(v * angle) / sqrt(-above);
+        t.second[i] = (v * v * t.value[i] - x * t.first[i]) / above;
+    }
+    return t;
+}
+
+static inline struct chebyshev chebyshev_select(lane_mask mask, struct chebyshev a, struct chebyshev b)
+{
+    return (struct chebyshev){lanes_select(mask, a.value, b.value), lanes_select(mask, a.first, b.first),
+                              lanes_select(mask, a.second, b.second)};
+}
+
+static inline struct chebyshev chebyshev(double v, const double *coefficient, lanes z, lane_mask far, lanes y)
+{
+    const lane_mask below = (lane_mask)(z < -CHEBYSHEV_NEAR);
+    struct chebyshev t = chebyshev_series(coefficient, lanes_select(far | below, lanes_all(0), z));
+    if (lanes_any(far))
+        t = chebyshev_select(far, chebyshev_far(v, z, y), t);
+    if (lanes_any(below))
+        t = chebyshev_select(below, chebyshev_below(v, z), t);
+    return t;
+}
+
+/* With x = a/(2 sqrt D), L1^alpha + L2^alpha = 2 D^(alpha/4) T(x) of the degree alpha/2, and L3^alpha = D^(-alpha/2). */
+static inline struct response ogden_response(const struct membrane_law *law, struct stretched s, int asked)
+{
+    const lanes root = lanes_sqrt(s.d), i = 1 / s.d;
+    const lanes z = s.gap / (2 * root * (s.a + 2 * root)), x = 1 + z;
+    const lane_mask far = (lane_mask)(z > CHEBYSHEV_NEAR);
+    const lanes log_d = lanes_log(s.d),
+                y = lanes_any(far) ? lanes_log(x + lanes_sqrt(lanes_max(z, lanes_all(0)) * (2 + z)))
+                                   : lanes_all(0);
+    const lanes xa = .5 / root, xd = -.5 * x * i; /* derivatives of x */
+    const lanes xad = -.25 * i / root, xdd = .75 * x * i * i;
+    struct response w = {0};
+    for (int p = 0; p < law->terms; p++) {
+        const double v = law->power[p] / 2, h = v / 2, weight = law->weight[p];
+        const struct chebyshev t = chebyshev(v, law->series[p], z, far, y);
+        const lanes e = (2 * weight) * lanes_exp(h * log_d), third = weight * lanes_exp(-v * log_d);
+        const lanes ed = h * e * i;
+        w.a += e * t.first * xa;
+        w.d += ed * t.value + e * t.first * xd - v * third * i;
+        if (asked & RESPONSE_ENERGY)
+            w.energy += e * t.value + third - 3 * weight;
+        if (asked & RESPONSE_SECOND) {
+            w.aa += e * t.second * xa * xa;
+            w.ad += ed * t.first * xa + e * (t.second * xa * xd + t.first * xad);
+            w.dd += (h - 1) * ed * i * t.value + 2 * ed * t.first * xd +
+                    e * (t.second * xd * xd + t.first * xdd) + v * (v + 1) * third * i * i;
+        }
+    }
+    return w;
+}
+
+static inline __attribute__((always_inline)) struct response
+law_response(const struct membrane_law *law, enum membrane_kind kind, struct stretched s, int asked)
+{
+    return kind == MEMBRANE_OGDEN  ? ogden_response(law, s, asked)
+           : kind == MEMBRANE_GENT ? gent_response(law, s, asked)
+                                   : mooney_response(law, s, asked);
+}
+
+/* Also where triangles are crushed (MEMBRANE_CRUSHED). */
+static inline __attribute__((always_inline)) struct response
+full_response(const struct membrane_law *law, enum membrane_kind kind, struct stretched s, int asked)
+{
+    const double least = MEMBRANE_CRUSHED;
+    const lane_mask crushed = (lane_mask)(s.d < least);
+    if (!lanes_any(crushed))
+        return law_response(law, kind, s, asked);
+    const lanes slope = lanes_select(crushed, s.d * (1 / least), lanes_all(1));
+    const lanes bend = lanes_select(crushed, lanes_all(1 / least), lanes_all(0));
+    const lanes d = lanes_select(crushed, .5 * (least + s.d * slope), s.d);
+    const lanes gap = lanes_select(crushed, s.a * s.a - 4 * d, s.gap);
+    struct response w = law_response(law, kind, (struct stretched){s.a, d, gap}, asked);
+    w.dd = w.dd * slope * slope + w.d * bend;
+    w.ad *= slope;
+    w.d *= slope;
+    return w;
+}
+
+/*
+ * The energy of a pull along L1 alone, w(q) = W(q + q^-1/2, q^1/2) with q = L1^2, the larger eigenvalue (a + r)/2, r = L1^2 - L2^2:
+ *     w' = W_a + q2 W_D (since L2 is where W is least),   w'' = dw'/dq + dw'/dq2 dq2/dq,   q2 = q^-1/2,
+ * and dq/da = q/r, dq/dD = -1/r. Nothing is held where q < 1.
+ */
+static inline __attribute__((always_inline)) struct response wrinkled_response(const struct membrane_law *law,
+                                                                               enum membrane_kind kind,
+                                                                               struct stretched s, lanes r,
+                                                                               int asked)
+{
+    const lanes true_q = .5 * (s.a + r), q = lanes_max(true_q, lanes_all(1)), root = lanes_sqrt(q),
+                q2 = 1 / root;
+    const lanes gap = (q - q2) * (q - q2);
+    const struct response w = law_response(law, kind, (struct stretched){q + q2, root, gap}, asked);
+    const lanes i = 1 / lanes_max(r, lanes_all(1e-100)), first = w.a + q2 * w.d;
+    struct response out = {.energy = w.energy, .a = first * true_q * i, .d = -first * i};
+    if (asked & RESPONSE_SECOND) {
+        const lanes by_q = w.aa + q2 * (2 * w.ad + q2 * w.dd);
+        const lanes by_q2 = w.aa + (q + q2) * w.ad + root * w.dd + w.d;
+        const lanes second = lanes_select((lane_mask)(true_q > 1), by_q - .5 * q2 * (1 / q) * by_q2,
+                                          lanes_all(0));
+        const lanes i2 = i * i, turning = first * i2 * i;
+        out.aa = second * true_q * true_q * i2 - 2 * turning * s.d;
+        out.ad = -second * true_q * i2 + turning * s.a;
+        out.dd = second * i2 - 2 * turning;
+    }
+    return out;
+}
+
+static inline lanes blend(lane_mask mask, double share, lanes b, lanes a)
+{
+    return lanes_select(mask, share * a + (1 - share) * b, a);
+}
+
+/* The law with wrinkling: taut where L2 >= L1^-1/2, which is D^2 >= q, and surely where D^2 >= a. */
+static inline __attribute__((always_inline)) struct response
+membrane_response(const struct membrane_law *law, enum membrane_kind kind, struct stretched s, int asked)
+{
+    struct response w = full_response(law, kind, s, asked);
+    const lanes square = s.d * s.d;
+    if (law->compression == 1 || !lanes_any((lane_mask)(square < s.a)))
+        return w;
+    const lanes r = lanes_sqrt(s.gap);
+    const lane_mask slack = (lane_mask)(square < .5 * (s.a + r));
+    if (!lanes_any(slack))
+        return w;
+    const struct response pull = wrinkled_response(law, kind, s, r, asked);
+    const double share = law->compression;
+    w.energy = blend(slack, share, pull.energy, w.energy);
+    w.a = blend(slack, share, pull.a, w.a);
+    w.d = blend(slack, share, pull.d, w.d);
+    w.aa = blend(slack, share, pull.aa, w.aa);
+    w.ad = blend(slack, share, pull.ad, w.ad);
+    w.dd = blend(slack, share, pull.dd, w.dd);
+    return w;
+}
+
+#endif

@@ -1,0 +1,394 @@
+/* The membrane's forces against its energy, its derivatives against its forces, and both against what must not matter. */
+#include "balloon.h"
+#include "common/random.h"
+#include "sim/guard.h"
+#include "sim/jacobian.h"
+#include "sim/ledger.h"
+#include "sim/membrane.h"
+
+typedef double (*rows)[4];
+
+/* A small stiff balloon of radius 1, mu = h = 1 but for what a test changes. */
+#define RUBBER(...)                                                                           \
+    SETTINGS("balloons[0].radius=1", "balloons[0].pressure=0", "balloons[0].threshold=1e300", \
+             "balloons[0].membrane.thickness=1", "balloons[0].membrane.shear_modulus=1",      \
+             "balloons[0].membrane.density=1",                                                \
+             "balloons[0].membrane.viscosity=0" __VA_OPT__(, ) __VA_ARGS__)
+
+static rows new_rows(const struct sim *sim)
+{
+    const size_t bytes = sim->point_count * sizeof(double[4]);
+    return memset(aligned_alloc(32, bytes), 0, bytes);
+}
+
+static void fill(rows x, uint32_t count, double size, uint64_t *random)
+{
+    for (uint32_t p = 0; p < count; p++)
+        for (int i = 0; i < 3; i++)
+            x[p][i] += size * (2 * random_unit(random) - 1);
+}
+
+/* Stretched by these factors along x, y and z, shaken by a tenth of an edge, in motion, a few triangles gone. */
+static void deform(struct sim *sim, const double factor[3], double size)
+{
+    uint64_t random = 3;
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        for (int i = 0; i < 3; i++)
+            sim->position[p][i] *= factor[i];
+    fill(sim->position, sim->point_count, size, &random);
+    fill(sim->velocity, sim->point_count, 1, &random);
+    for (uint32_t t = 0; t < sim->triangle_count; t += 13)
+        sim->triangle_active[t] = 0;
+}
+
+/* Taut all over; wrinkled along one way; slack; crushed. */
+static const double shapes[][3] = {{1.7, 1.5, 1.6}, {2.5, 0.8, 0.7}, {0.8, 0.7, 0.9}, {0.4, 0.3, 0.3}};
+enum { SHAPES = sizeof shapes / sizeof shapes[0] };
+
+static double energy_at(struct sim *sim, double s, rows dx)
+{
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        for (int i = 0; i < 3; i++)
+            sim->position[p][i] += s * dx[p][i];
+    const double energy = membrane_elastic(sim, sim->balloons);
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        for (int i = 0; i < 3; i++)
+            sim->position[p][i] -= s * dx[p][i];
+    return energy;
+}
+
+/* -f . dx against (8 (E(h) - E(-h)) - (E(2h) - E(-2h))) / (12 h), h = 1e-5 of edges of .3. Rounding of E, near 20: 20 x 2e-16/h = 4e-10.
+ * Where a triangle is about to wrinkle within 2 h, E'' jumps by about 1, and the difference is wrong by h/2 or so of that triangle's share. */
+static void check_forces(const char *const *changes)
+{
+    for (int k = 0; k < SHAPES; k++) {
+        struct balloon b;
+        uint64_t random = 9;
+        open_balloon(&b, 2, changes);
+        struct sim *sim = &b.sim;
+        deform(sim, shapes[k], 0.02);
+        memset(sim->velocity, 0, sim->point_count * sizeof *sim->velocity);
+        rows dx = new_rows(sim);
+        fill(dx, sim->point_count, 1, &random);
+        sim_forces(sim);
+        double work = 0, size = 0;
+        for (uint32_t p = 0; p < sim->point_count; p++)
+            for (int i = 0; i < 3; i++) {
+                work -= sim->force[p][i] * dx[p][i];
+                size += fabs(sim->force[p][i]);
+            }
+        const double h = 1e-5, difference = (8 * (energy_at(sim, h, dx) - energy_at(sim, -h, dx)) -
+                                             (energy_at(sim, 2 * h, dx) - energy_at(sim, -2 * h, dx))) /
+                                            (12 * h);
+        assert_near(work, difference, 1e-8 * size + 1e-9);
+        free(dx);
+        close_balloon(&b);
+    }
+}
+
+static void forces_are_the_slope_of_the_energy(void **state)
+{
+    (void)state;
+    check_forces(RUBBER());
+    check_forces(RUBBER("balloons[0].membrane.law=mooney-rivlin"));
+    check_forces(RUBBER("balloons[0].membrane.law=gent"));
+    check_forces(RUBBER("balloons[0].membrane.law=ogden"));
+    check_forces(RUBBER("balloons[0].membrane.compression=1"));
+}
+
+static void force_at(struct sim *sim, double s, rows dx, rows dv, rows force)
+{
+    const size_t bytes = sim->point_count * sizeof(double[4]);
+    rows x = malloc(bytes), v = malloc(bytes);
+    memcpy(x, sim->position, bytes);
+    memcpy(v, sim->velocity, bytes);
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        for (int i = 0; i < 3; i++) {
+            sim->position[p][i] += s * dx[p][i];
+            sim->velocity[p][i] += s * dv[p][i];
+        }
+    sim_forces(sim);
+    memcpy(force, sim->force, bytes);
+    memcpy(sim->position, x, bytes);
+    memcpy(sim->velocity, v, bytes);
+    free(x);
+    free(v);
+}
+
+/* As in test_jacobian.c: central differences over h and 2 h, with Richardson's extrapolation. With h = 1e-5 and edges of .3 what is left
+ * out is below 1e-15 of f, and rounding is f x 2e-16/h = 2e-11 f; forces are below 100. A triangle whose wrinkling begins within 2 h is
+ * not among these: with another seed one might be. */
+static void check_products(const char *const *changes, const double shape[3])
+{
+    static const double place[4] = {1, -1, 2, -2}, weight[4] = {8, -8, -1, 1};
+    const double h = 1e-5;
+    struct balloon b;
+    uint64_t random = 5;
+    open_balloon(&b, 2, changes);
+    struct sim *sim = &b.sim;
+    deform(sim, shape, 0.02);
+    assert_ok(sim_jacobian_open(sim, &(struct error){0}), &(struct error){0});
+    sim_linearise(sim);
+    rows dx = new_rows(sim), dv = new_rows(sim), exact = new_rows(sim), near = new_rows(sim),
+         f = new_rows(sim);
+    fill(dx, sim->point_count, 1, &random);
+    fill(dv, sim->point_count, 1, &random);
+    double largest = 1;
+    for (int k = 0; k < 4; k++) {
+        force_at(sim, place[k] * h, dx, dv, f);
+        for (uint32_t p = 0; p < sim->point_count; p++)
+            for (int i = 0; i < 3; i++) {
+                near[p][i] += weight[k] * f[p][i] / (12 * h);
+                largest = fmax(largest, fabs(f[p][i]));
+            }
+    }
+    sim_force_product(sim, 1, dx, 1, dv, exact);
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        for (int i = 0; i < 3; i++)
+            assert_near(exact[p][i], near[p][i], 1e-9 * largest);
+    free(dx);
+    free(dv);
+    free(exact);
+    free(near);
+    free(f);
+    sim_jacobian_close(sim);
+    close_balloon(&b);
+}
+
+static void products_are_the_differences_of_the_forces(void **state)
+{
+    (void)state;
+    static const char *const laws[] = {"neo-hookean", "mooney-rivlin", "gent", "ogden"};
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < SHAPES; k++) {
+            char law[64];
+            snprintf(law, sizeof law, "balloons[0].membrane.law=%s", laws[i]);
+            check_products(RUBBER(law), shapes[k]);
+        }
+}
+
+static void products_of_the_damping_are_the_differences_of_its_forces(void **state)
+{
+    (void)state;
+    for (int k = 0; k < SHAPES; k++)
+        check_products(RUBBER("balloons[0].membrane.viscosity=0.3"), shapes[k]);
+}
+
+/* To the bit: forces, products, energies, after a few steps through wrinkled and crushed states. */
+static void results_are_equal_for_any_number_of_threads(void **state)
+{
+    (void)state;
+    static const unsigned workers[] = {1, 2, 3, 7};
+    static const char *const laws[] = {"neo-hookean", "gent", "ogden"};
+    struct error err = {0};
+    for (int i = 0; i < 3; i++) {
+        char law[64];
+        snprintf(law, sizeof law, "balloons[0].membrane.law=%s", laws[i]);
+        struct balloon b;
+        open_balloon(&b, 3, RUBBER(law, "balloons[0].membrane.viscosity=0.1", "time.step=0.01"));
+        uint64_t first = 0;
+        double energy = 0;
+        for (size_t w = 0; w < sizeof workers / sizeof workers[0]; w++) {
+            struct sim sim;
+            assert_ok(sim_open(&sim, &b.scene, &b.mesh, workers[w], &err), &err);
+            deform(&sim, shapes[1], 0.02);
+            for (int s = 0; s < 10; s++)
+                assert_ok(sim_step(&sim, &err), &err);
+            if (w == 0) {
+                first = sim_hash(&sim);
+                energy = membrane_elastic(&sim, sim.balloons);
+            }
+            assert_true(sim_hash(&sim) == first);
+            assert_true(membrane_elastic(&sim, sim.balloons) == energy);
+            sim_clear(&sim);
+        }
+        close_balloon(&b);
+    }
+}
+
+/* Turning and moving the balloon as a whole stretches nothing: its energy stays 0 to the rounding of lengths, squared. */
+static void a_membrane_that_only_turns_holds_nothing(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 2, RUBBER());
+    struct sim *sim = &b.sim;
+    assert_near(membrane_elastic(sim, sim->balloons), 0, 1e-14);
+    for (uint32_t p = 0; p < sim->point_count; p++) {
+        const double x = sim->position[p][0], y = sim->position[p][1];
+        sim->position[p][0] = 0.6 * x - 0.8 * y;
+        sim->position[p][1] = 0.8 * x + 0.6 * y;
+        sim->position[p][2] += 5;
+    }
+    assert_near(membrane_elastic(sim, sim->balloons), 0, 1e-13);
+    sim_forces(sim);
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        for (int i = 0; i < 3; i++)
+            assert_near(sim->force[p][i], 0, 1e-13);
+    close_balloon(&b);
+}
+
+/* The sum of all thirds is the skin's mass: density x thickness x area at rest. */
+static void masses_are_those_of_the_skin(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 3, RUBBER("balloons[0].membrane.density=3", "balloons[0].membrane.thickness=0.02"));
+    double mass = 0;
+    for (uint32_t p = 0; p < b.sim.point_count; p++)
+        mass += b.sim.mass[p];
+    const double area = sim_measure(&b.sim).area;
+    assert_near(mass, 3 * 0.02 * area, 1e-13);
+    double rest = 0;
+    for (uint32_t t = 0; t < b.sim.triangle_count; t++)
+        rest += membrane_rest_area(b.sim.balloons, t);
+    assert_near(rest, area, 1e-12);
+    close_balloon(&b);
+}
+
+/* Uniaxial: pulled to 2 along x while y and z shrink far below 2^-1/2, a triangle holds what neo-Hookean rubber does when pulled: W =
+ * (4 + 2/2 - 3)/2 = 1, and pulls along x alone with 2 - 1/4. */
+static void a_wrinkled_triangle_holds_what_a_pulled_strip_does(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 2, RUBBER("balloons[0].membrane.compression=0"));
+    struct sim *sim = &b.sim;
+    /* The first triangle's own frame: its points to 2 x along its first side, 0.5 across. */
+    const uint32_t *p = sim->triangle_point[0];
+    double u[3], v[3], along = 0, length = 0;
+    for (int i = 0; i < 3; i++) {
+        u[i] = sim->position[p[1]][i] - sim->position[p[0]][i];
+        v[i] = sim->position[p[2]][i] - sim->position[p[0]][i];
+        length += u[i] * u[i];
+    }
+    for (int i = 0; i < 3; i++)
+        along += u[i] * v[i] / length;
+    for (int i = 0; i < 3; i++) {
+        sim->position[p[1]][i] = sim->position[p[0]][i] + 2 * u[i];
+        sim->position[p[2]][i] = sim->position[p[0]][i] + 2 * along * u[i] + 0.5 * (v[i] - along * u[i]);
+    }
+    struct membrane_state look;
+    membrane_look(sim, sim->balloons, 0, &look);
+    assert_near(look.stretch[0], 2, 1e-12);
+    assert_near(look.stretch[1], 0.5, 1e-12);
+    assert_near(look.energy, 1, 1e-12);
+    assert_near(look.stress[0], 1.75, 1e-12);
+    assert_near(look.stress[1], 0, 1e-12);
+    for (int i = 0; i < 3; i++)
+        assert_near(fabs(look.direction[i]), fabs(u[i]) / sqrt(length), 1e-12);
+    double *each = malloc(sim->triangle_count * sizeof *each);
+    membrane_energies(sim, sim->balloons, each);
+    assert_near(each[0], look.energy, 1e-14);
+    free(each);
+    close_balloon(&b);
+}
+
+/* At small strain every law is the same: 12 mu e^2/2 when stretched alike both ways, to e itself in relation. */
+static void all_laws_agree_at_small_strain(void **state)
+{
+    (void)state;
+    static const char *const laws[] = {"neo-hookean", "mooney-rivlin", "gent", "ogden"};
+    for (int i = 0; i < 4; i++) {
+        char law[64];
+        snprintf(law, sizeof law, "balloons[0].membrane.law=%s", laws[i]);
+        struct balloon b;
+        open_balloon(&b, 1, RUBBER(law));
+        const double e = 1e-4, factor[3] = {1 + e, 1 + e, 1 + e};
+        for (uint32_t p = 0; p < b.sim.point_count; p++)
+            for (int k = 0; k < 3; k++)
+                b.sim.position[p][k] *= factor[k];
+        struct membrane_state look;
+        membrane_look(&b.sim, b.sim.balloons, 5, &look);
+        assert_near(look.energy, 6 * e * e, 10 * 6 * e * e * e + 1e-15);
+        close_balloon(&b);
+    }
+}
+
+/* The bound is what the guard says: one percent below it a shaken membrane stays bounded for 2000 steps. */
+static void the_guards_bound_holds_for_a_membrane(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct balloon b;
+    open_balloon(
+        &b, 2,
+        RUBBER("time.guard=substep", "time.step=10", "time.end=1e9", "time.integrator=symplectic-euler"));
+    uint64_t random = 1;
+    fill(b.sim.position, b.sim.point_count, 0.01, &random);
+    guard_outdated(&b.sim);
+    const double begin = membrane_elastic(&b.sim, b.sim.balloons);
+    for (int i = 0; i < 2000; i++)
+        assert_ok(sim_step(&b.sim, &err), &err);
+    const struct sim_measures m = sim_measure(&b.sim);
+    assert_true(m.kinetic_energy + m.elastic_energy < 3 * begin);
+    close_balloon(&b);
+}
+
+/* Kinetic, elastic and dissipated energy add up: symplectic Euler's error is of first order in the step, and falls with it. */
+static void the_ledger_balances(void **state)
+{
+    (void)state;
+    double error[2];
+    for (int k = 0; k < 2; k++) {
+        struct error err = {0};
+        struct balloon b;
+        open_balloon(
+            &b, 2, RUBBER("balloons[0].membrane.viscosity=0.05", k ? "time.step=0.0025" : "time.step=0.005"));
+        for (uint32_t p = 0; p < b.sim.point_count; p++)
+            b.sim.position[p][0] *= 1.3;
+        guard_outdated(&b.sim);
+        assert_ok(ledger_open(&b.sim, &err), &err);
+        for (int i = 0; i < (k ? 400 : 200); i++)
+            assert_ok(sim_step(&b.sim, &err), &err);
+        const struct sim_measures m = sim_measure(&b.sim);
+        const struct ledger_balance balance = ledger_balance(&b.sim, &m);
+        assert_true(balance.dissipated > 0.01);
+        error[k] = fabs(balance.error);
+        assert_true(error[k] < 0.02 * balance.dissipated);
+        close_balloon(&b);
+    }
+    assert_true(error[1] < 0.6 * error[0]);
+}
+
+static void scenes_that_contradict_themselves_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *set, *message;
+    } bad[] = {
+        {"balloons[0].membrane.law=gent", "membrane: give thickness"},
+        {"balloons[0].membrane.ogden=((-1,2))", "sum of m alpha"},
+        {"balloons[0].membrane.ogden=((1,0))", "alpha of row 1 is 0"},
+        {"balloons[0].spring_by_height.profile=((0,1),(1,2))", "no springs for spring_by_height"},
+        {"time.integrator=xpbd", "moves springs only"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        struct error err = {0};
+        struct scene scene = {0};
+        assert_ok(scene_from_mesh("sphere", &scene, &err), &err);
+        if (i > 0)
+            assert_ok(scene_set(&scene, "balloons[0].membrane.thickness=0.4", &err), &err);
+        assert_ok(scene_set(&scene, bad[i].set, &err), &err);
+        assert_refused(scene_check(&scene, &err), STATUS_INPUT, bad[i].message, &err);
+        scene_clear(&scene);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(forces_are_the_slope_of_the_energy),
+        cmocka_unit_test(products_are_the_differences_of_the_forces),
+        cmocka_unit_test(products_of_the_damping_are_the_differences_of_its_forces),
+        cmocka_unit_test(results_are_equal_for_any_number_of_threads),
+        cmocka_unit_test(a_membrane_that_only_turns_holds_nothing),
+        cmocka_unit_test(masses_are_those_of_the_skin),
+        cmocka_unit_test(a_wrinkled_triangle_holds_what_a_pulled_strip_does),
+        cmocka_unit_test(all_laws_agree_at_small_strain),
+        cmocka_unit_test(the_guards_bound_holds_for_a_membrane),
+        cmocka_unit_test(the_ledger_balances),
+        cmocka_unit_test(scenes_that_contradict_themselves_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
