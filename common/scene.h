@@ -209,12 +209,9 @@ enum scene_guard { SCENE_GUARD_SUBSTEP, SCENE_GUARD_REFUSE, SCENE_GUARD_OFF };
 enum scene_shape { SCENE_SPHERE, SCENE_BOX };
 enum scene_pressure_on { SCENE_ON_POINTS, SCENE_ON_AREAS };
 enum scene_process { SCENE_ISOTHERMAL, SCENE_ADIABATIC };
-<<<<<<< 9289c68651ea0f79245f3c7f57b6ae098ca971eb
 enum scene_style { SCENE_LATEX, SCENE_PAPER };
 enum scene_order { SCENE_ORDER_NONE, SCENE_ORDER_SORT, SCENE_ORDER_PEEL, SCENE_ORDER_LIST };
-=======
 enum scene_law { SCENE_NEO_HOOKEAN, SCENE_MOONEY_RIVLIN, SCENE_GENT, SCENE_OGDEN };
->>>>>>> e14ea36bc6e8a40b0bdb713efd91fd689148e836
 enum scene_stereo { SCENE_MONO, SCENE_PARALLEL, SCENE_CROSSED };
 
 /* Reads a scene file. *scene must be empty ({0}) and is so again after a failure. Errors: STATUS_FILE, STATUS_INPUT with

@@ -23,12 +23,9 @@ const char *const scene_pressure_on_names[] = {"points", "areas", NULL};
 const char *const scene_process_names[] = {"isothermal", "adiabatic", NULL};
 const char *const scene_stereo_names[] = {"mono", "parallel", "crossed", NULL};
 const char *const scene_shape_names[] = {"sphere", "box", NULL};
-<<<<<<< 9289c68651ea0f79245f3c7f57b6ae098ca971eb
 const char *const scene_style_names[] = {"latex", "paper", NULL};
 const char *const scene_order_names[] = {"none", "sort", "peel", "list", NULL};
-=======
 const char *const scene_law_names[] = {"neo-hookean", "mooney-rivlin", "gent", "ogden", NULL};
->>>>>>> e14ea36bc6e8a40b0bdb713efd91fd689148e836
 
 #define CHOICES_NUMBER(key) NULL
 #define CHOICES_WHOLE(key)  NULL
