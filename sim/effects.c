@@ -4,10 +4,8 @@
 #include <stdlib.h>
 
 const struct effect *const effects[] = {
-    &effect_spring_by_height,
-    &effect_rip,
-    &effect_membrane,
-    NULL,
+    &effect_spring_by_height, &effect_rip,       &effect_membrane, &effect_needles,
+    &effect_ground,           &effect_obstacles, &effect_contact,  NULL,
 };
 
 static bool is_wanted(const struct sim *sim, const struct effect *effect, const struct sim_balloon *balloon)
@@ -79,6 +77,14 @@ void effects_run(struct sim *sim, enum effect_phase phase)
     for (size_t i = 0; phase == EFFECT_AFTER_STEP && i < sim->hook_count[EFFECT_FORCES]; i++)
         if (sim->hooks[EFFECT_FORCES][i].effect->after)
             sim->hooks[EFFECT_FORCES][i].effect->after(sim, sim->hooks[EFFECT_FORCES][i].balloon);
+}
+
+enum status effects_settle(struct sim *sim, struct error *err)
+{
+    enum status status = STATUS_OK;
+    for (size_t i = 0; i < sim->hook_count[EFFECT_MOVED] && !status; i++)
+        status = sim->hooks[EFFECT_MOVED][i].effect->settle(sim, err);
+    return status;
 }
 
 size_t effects_blocks(struct sim *sim, struct sim_block *blocks)

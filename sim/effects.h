@@ -7,5 +7,9 @@
 extern const struct effect effect_spring_by_height;
 extern const struct effect effect_rip;
 extern const struct effect effect_membrane;
+extern const struct effect effect_needles;
+extern const struct effect effect_ground; /* effect_obstacles.c */
+extern const struct effect effect_obstacles;
+extern const struct effect effect_contact;
 
 #endif
