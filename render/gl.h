@@ -27,7 +27,6 @@
     X(ClearBufferfv, CLEARBUFFERFV)                                   \
     X(ColorMask, COLORMASK)                                           \
     X(CompileShader, COMPILESHADER)                                   \
-    X(CopyTexImage2D, COPYTEXIMAGE2D)                                 \
     X(CreateProgram, CREATEPROGRAM)                                   \
     X(CreateShader, CREATESHADER)                                     \
     X(DeleteBuffers, DELETEBUFFERS)                                   \

@@ -30,21 +30,34 @@ struct gas_rims {
     uint32_t side_count, hole_count;
 };
 
-/* More holes than this count as one rim too wide to hold anything: the gas is gone. */
+/* More holes than this count as one with many rims. */
 enum { GAS_HOLES_MAX = 64 };
 
 /* The gas presses on these points no longer, and they bound its volume no longer. Without gas nothing happens. */
 void gas_let_go(struct sim *sim, struct sim_balloon *balloon, const uint32_t *points, uint32_t count);
 
-/* What is in a balloon, by the last sim_forces(). */
+/* What is in a balloon now. */
 struct gas_look {
     double volume, gauge_pressure;
-    double amount;    /* N */
+    double amount; /* N */
+    double
+        brought; /* of N, from outside, in all: what was pumped in less what got out by leak, neck and holes */
     double hole_area; /* of tears and of an open neck */
-    double outflow;   /* of N, 1/s */
 };
 
 /* All 0 for a balloon without gas. */
-struct gas_look gas_look(const struct sim *sim, const struct sim_balloon *balloon);
+struct gas_look gas_look(struct sim *sim, const struct sim_balloon *balloon);
+
+/* For tubes: streams `rate` of N, at `warmth` times the temperature of the air, into a balloon's gas (out of it: below 0), as rates of
+ * sim->scalar. */
+void gas_stream(struct sim *sim, const struct sim_balloon *balloon, double rate, double warmth);
+
+/* What drives tubes, by the last sim_forces(): pressure, mass over volume, temperature over that of the air; and the most of N that may flow out a second so that
+ * an explicit step does not overshoot where pressures are nearly even. */
+struct gas_drive {
+    double pressure, density, warmth, amount_of_mass; /* the last: N over mass */
+    double to_even;                                   /* of N a second, times the pressure difference */
+};
+struct gas_drive gas_drive(const struct sim *sim, const struct sim_balloon *balloon);
 
 #endif

@@ -4,8 +4,13 @@
 #include <stdlib.h>
 
 const struct effect *const effects[] = {
-    &effect_spring_by_height, &effect_rip,       &effect_membrane, &effect_needles,
-    &effect_ground,           &effect_obstacles, &effect_contact,  NULL,
+    &effect_spring_by_height,
+    &effect_rip,
+    &effect_membrane,
+    &effect_areas,
+    &effect_gas,
+    &effect_tube, /* after the gas of both balloons */
+    NULL,
 };
 
 static bool is_wanted(const struct sim *sim, const struct effect *effect, const struct sim_balloon *balloon)
@@ -79,12 +84,21 @@ void effects_run(struct sim *sim, enum effect_phase phase)
             sim->hooks[EFFECT_FORCES][i].effect->after(sim, sim->hooks[EFFECT_FORCES][i].balloon);
 }
 
-enum status effects_settle(struct sim *sim, struct error *err)
+enum status effects_check(struct sim *sim, struct error *err)
 {
     enum status status = STATUS_OK;
-    for (size_t i = 0; i < sim->hook_count[EFFECT_MOVED] && !status; i++)
-        status = sim->hooks[EFFECT_MOVED][i].effect->settle(sim, err);
+    for (size_t i = 0; i < sim->hook_count[EFFECT_FORCES] && !status; i++)
+        if (sim->hooks[EFFECT_FORCES][i].effect->check)
+            status = sim->hooks[EFFECT_FORCES][i].effect->check(sim, sim->hooks[EFFECT_FORCES][i].balloon,
+                                                                err);
     return status;
+}
+
+void sim_tell(struct sim *sim, const struct sim_balloon *balloon, const char *effect, const char *text)
+{
+    if (sim->news_count < SIM_NEWS_MAX)
+        sim->news[sim->news_count++] = (struct sim_news){sim->time, effect, text,
+                                                         (size_t)(balloon - sim->balloons)};
 }
 
 size_t effects_blocks(struct sim *sim, struct sim_block *blocks)

@@ -7,9 +7,8 @@
 extern const struct effect effect_spring_by_height;
 extern const struct effect effect_rip;
 extern const struct effect effect_membrane;
-extern const struct effect effect_needles;
-extern const struct effect effect_ground; /* effect_obstacles.c */
-extern const struct effect effect_obstacles;
-extern const struct effect effect_contact;
+extern const struct effect effect_areas;
+extern const struct effect effect_gas;
+extern const struct effect effect_tube;
 
 #endif

@@ -115,11 +115,13 @@ static void edge_forces(struct sim *sim, const struct sim_part *part, const stru
 }
 
 /* Part 3: the unit normal of a triangle, which each active one adds to its three points'. A triangle without area has none
- * to add. */
-static inline row triangle_normal(const row *position, const uint32_t *p)
+ * to add. Where pressure acts on areas (areas.h): twice its area along that normal. */
+static inline row triangle_normal(const row *position, const uint32_t *p, bool unit)
 {
     const row twice_area = cross(position[p[1]] - position[p[0]], position[p[2]] - position[p[0]]);
-    return twice_area * inverse(length_of(twice_area));
+    if (unit)
+        return twice_area * inverse(length_of(twice_area));
+    return twice_area;
 }
 
 /* Adds it to those of the three points that are the part's. */
@@ -130,17 +132,18 @@ static inline void add_to_own(const struct sim_part *part, row *normal, const ui
             normal[p[k]] += n;
 }
 
-static void coming_normals(struct sim *sim, const struct sim_part *part)
+static inline void add_coming(struct sim *sim, const struct sim_part *part, bool unit)
 {
     const row *position = sim->rows.position;
     for (uint32_t i = 0; i < part->triangle_in_count; i++) {
         const uint32_t *p = sim->triangle_point[part->triangle_in[i]];
         if (sim->triangle_active[part->triangle_in[i]])
-            add_to_own(part, sim->rows.normal, p, triangle_normal(position, p));
+            add_to_own(part, sim->rows.normal, p, triangle_normal(position, p, unit));
     }
 }
 
-static void triangle_normals(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk)
+static inline void add_triangles(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk,
+                                 bool unit)
 {
     const row *position = sim->rows.position;
     row *normal = sim->rows.normal;
@@ -149,14 +152,34 @@ static void triangle_normals(struct sim *sim, const struct sim_part *part, const
     const uint32_t inner_end = chunk->triangle_inner_end, end = chunk->triangle_end;
     for (uint32_t t = chunk->triangle_begin; t < inner_end; t++)
         if (active[t]) {
-            const row n = triangle_normal(position, point[t]);
+            const row n = triangle_normal(position, point[t], unit);
             normal[point[t][0]] += n;
             normal[point[t][1]] += n;
             normal[point[t][2]] += n;
         }
     for (uint32_t t = inner_end; t < end; t++)
         if (active[t])
-            add_to_own(part, normal, point[t], triangle_normal(position, point[t]));
+            add_to_own(part, normal, point[t], triangle_normal(position, point[t], unit));
+}
+
+static void coming_normals(struct sim *sim, const struct sim_part *part)
+{
+    add_coming(sim, part, true);
+}
+
+static void triangle_normals(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk)
+{
+    add_triangles(sim, part, chunk, true);
+}
+
+static void coming_areas(struct sim *sim, const struct sim_part *part)
+{
+    add_coming(sim, part, false);
+}
+
+static void triangle_areas(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk)
+{
+    add_triangles(sim, part, chunk, false);
 }
 
 /* Part 4: normalize the normals; pressure is a force along them. A point that lost its last triangle has no normal, and
@@ -170,6 +193,28 @@ static void pressure_forces(struct sim *sim, const struct sim_part *part, const 
         normal[p] *= inverse(length_of(normal[p]));
         force[p] += pressure * normal[p];
     }
+}
+
+/* Where pressure acts on areas, in place of part 4. */
+static void push_areas(struct sim *sim, const struct sim_part *part, double constant, const double *gradient)
+{
+    row *force = sim->rows.force;
+    const row *twice_area = sim->rows.normal, *position = sim->rows.position;
+    const row d = {(real)gradient[0], (real)gradient[1], (real)gradient[2], 0};
+    const real c = (real)constant;
+    const uint32_t end = part->point_end;
+    for (uint32_t p = part->point_begin; p < end; p++)
+        force[p] += (c + dot(d, position[p])) * (1 / (real)6) * twice_area[p];
+}
+
+static double sum_volume(const struct sim *sim, uint32_t begin, uint32_t end, const double *origin)
+{
+    const row *twice_area = sim->rows.normal, *position = sim->rows.position;
+    const row o = {(real)origin[0], (real)origin[1], (real)origin[2], 0};
+    row sum = {0};
+    for (uint32_t p = begin; p < end; p++)
+        sum += (position[p] - o) * twice_area[p];
+    return (double)(sum[0] + sum[1] + sum[2]);
 }
 
 /* Part 2: "check if the length of the edge is greater than the threshold value". */
@@ -190,5 +235,6 @@ static uint32_t count_overlong(const struct sim *sim, const struct sim_part *par
 }
 
 extern const struct sim_kernels SIM_KERNELS;
-const struct sim_kernels SIM_KERNELS = {clear_points,     coming_forces,   edge_forces,   coming_normals,
-                                        triangle_normals, pressure_forces, count_overlong};
+const struct sim_kernels SIM_KERNELS = {clear_points,     coming_forces,   edge_forces,    coming_normals,
+                                        triangle_normals, pressure_forces, count_overlong, coming_areas,
+                                        triangle_areas,   push_areas,      sum_volume};

@@ -33,7 +33,7 @@ static void find_rows(struct sim *sim)
 {
     const struct guard_rows rows = sim->guard->rows;
     for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++) {
-        const double pressure = fabs(b->now->pressure), trembling = b->mean_rest_length / 10;
+        const double pressure = fabs(sim_point_pressure(b)), trembling = b->mean_rest_length / 10;
         for (uint32_t p = b->point_begin; p < b->point_end; p++) {
             rows.stiffness[p] = trembling > 0 ? 2 * pressure / trembling : 0;
             rows.damping[p] = 0;

@@ -52,14 +52,14 @@ static void linearise_part(struct sim *sim, const struct sim_part *part, void *c
 {
     (void)context;
     sim->jacobian->kernels->edges(sim, part);
-    if (part->balloon->now->pressure != 0)
+    if (sim_point_pressure(part->balloon) != 0)
         sim->jacobian->kernels->triangles(sim, part);
 }
 
 static void linearise_points(struct sim *sim, const struct sim_part *part, void *context)
 {
     (void)context;
-    if (part->balloon->now->pressure != 0)
+    if (sim_point_pressure(part->balloon) != 0)
         sim->jacobian->kernels->points(sim, part);
 }
 

@@ -107,7 +107,7 @@ static void points(struct sim *sim, const struct sim_part *part)
     for (uint32_t p = part->point_begin; p < part->point_end; p++) {
         const double i = inverse(sqrt(dot(kept[p], kept[p])));
         kept[p] *= i;
-        kept[p][3] = part->balloon->now->pressure * i;
+        kept[p][3] = sim_point_pressure(part->balloon) * i;
     }
 }
 
@@ -160,7 +160,7 @@ static void product(struct sim *sim, const struct sim_part *part, const struct j
 {
     row *out = (row *)product->out, *turn = (row *)sim->jacobian->turn;
     const row *normal = (row *)sim->jacobian->point;
-    const bool pressed = part->balloon->now->pressure != 0 && product->a != 0;
+    const bool pressed = sim_point_pressure(part->balloon) != 0 && product->a != 0;
     for (uint32_t p = part->point_begin; p < part->point_end; p++)
         out[p] = turn[p] = (row){0};
     if (pressed)
@@ -227,7 +227,7 @@ static void diagonal(struct sim *sim, const struct sim_part *part, double a, dou
                 block[p][j][j] += t;
         }
     }
-    if (part->balloon->now->pressure != 0)
+    if (sim_point_pressure(part->balloon) != 0)
         diagonal_of_pressure(sim, part, a, block);
 }
 

@@ -18,7 +18,30 @@ struct sim_kernels {
     void (*pressure_forces)(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk);
     /* How many of the active edges that begin in this part are longer than the threshold. */
     uint32_t (*count_overlong)(const struct sim *sim, const struct sim_part *part);
+    /* Where pressure acts on areas (areas.h): sums of twice the area vectors in place of the normals, and what goes by them. */
+    void (*coming_areas)(struct sim *sim, const struct sim_part *part);
+    void (*triangle_areas)(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk);
+    void (*push_areas)(struct sim *sim, const struct sim_part *part, double constant, const double *gradient);
+    double (*sum_volume)(const struct sim *sim, uint32_t begin, uint32_t end,
+                         const double *origin); /* 18 V */
 };
+
+/* Parts 3 and 4 for a chunk: what the pressure does, or what it will act on. */
+static inline void kernels_press(const struct sim_kernels *k, struct sim *sim, const struct sim_part *part,
+                                 const struct sim_chunk *chunk)
+{
+    const bool first = chunk == part->chunks;
+    if (part->balloon->by_area) {
+        if (first)
+            k->coming_areas(sim, part);
+        k->triangle_areas(sim, part, chunk);
+    } else {
+        if (first)
+            k->coming_normals(sim, part);
+        k->triangle_normals(sim, part, chunk);
+        k->pressure_forces(sim, part, chunk);
+    }
+}
 
 /* The table for this machine. */
 const struct sim_kernels *kernels_find(void);

@@ -39,7 +39,7 @@ static double total(struct sim *sim, struct sum sum)
 /* Of the force P along the normal n: P n . v. */
 static double pressure_power(const struct sim *sim, const struct sim_balloon *balloon, uint32_t p)
 {
-    return balloon->now->pressure * vec3_dot(sim->normal[p], sim->velocity[p]);
+    return sim_point_pressure(balloon) * vec3_dot(sim->normal[p], sim->velocity[p]);
 }
 
 /* A damper's force k_d v . l/|l| along the edge, against the closing speed v . l/|l|: what it takes is never negative. */
@@ -86,18 +86,13 @@ static double kinetic(const struct sim *sim)
     return energy;
 }
 
-double ledger_energy(struct sim *sim)
-{
-    double energy = kinetic(sim) + ledger_elastic(sim, 0, sim->edge_count);
-    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
-        if (b->membrane)
-            energy += membrane_elastic(sim, b);
-    return energy;
-}
-
 void ledger_begin(struct sim *sim)
 {
-    sim->ledger.account = (struct sim_account){.begin = ledger_energy(sim)};
+    sim->ledger.account.begin = kinetic(sim) + ledger_elastic(sim, 0, sim->edge_count) + effects_energy(sim);
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
+        if (b->membrane)
+            sim->ledger.account.begin += membrane_elastic(sim, b);
+    sim->ledger.account.fracture = sim->ledger.account.user = 0;
     for (uint32_t i = 0; i < LEDGER_SCALARS; i++)
         sim->scalar[sim->ledger.first + i] = 0;
 }
@@ -114,13 +109,14 @@ enum status ledger_open(struct sim *sim, struct error *err)
     return STATUS_OK;
 }
 
-struct ledger_balance ledger_balance(const struct sim *sim, const struct sim_measures *m)
+struct ledger_balance ledger_balance(struct sim *sim, const struct sim_measures *m)
 {
     const struct sim_ledger *ledger = &sim->ledger;
     struct ledger_balance b = {0};
     if (!ledger->on)
         return b;
-    b.dissipated = sim->scalar[ledger->first + LEDGER_DISSIPATED] + ledger->account.contact;
+    b.gas = effects_energy(sim);
+    b.dissipated = sim->scalar[ledger->first + LEDGER_DISSIPATED];
     b.fracture = ledger->account.fracture;
     b.pressure_work = sim->scalar[ledger->first + LEDGER_PRESSURE];
     b.user_work = ledger->account.user;

@@ -33,20 +33,17 @@ void ledger_rates(struct sim *sim);
 /* Energy of the active springs from edge begin to end: k_s (|l| - r)^2 / 2 each. */
 double ledger_elastic(const struct sim *sim, uint32_t begin, uint32_t end);
 
-/* What all points move with and what holds them: kinetic and elastic energy of the present state. */
-double ledger_energy(struct sim *sim);
-
 /* All in the unit of force x length. */
 struct ledger_balance {
-    double gas;           /* held by the gas: 0, since the paper's pressure is a given force */
-    double dissipated;    /* by dampers, obstacles and contact */
+    double gas;           /* held by gas, and by what else effects hold; 0 where the pressure is given */
+    double dissipated;    /* by dampers */
     double fracture;      /* that springs held when they let go */
-    double pressure_work; /* by the pressure on the points */
+    double pressure_work; /* by the pressure on the points, and by what else effects bring */
     double user_work;     /* by changes of springs in the schedule */
     double error;         /* what there is and went, less what there was and came */
 };
 
 /* measures are those of the present state. All 0 when no ledger is open. */
-struct ledger_balance ledger_balance(const struct sim *sim, const struct sim_measures *measures);
+struct ledger_balance ledger_balance(struct sim *sim, const struct sim_measures *measures);
 
 #endif

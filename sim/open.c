@@ -22,7 +22,6 @@ void sim_clear(struct sim *sim)
                       sim->position,
                       sim->velocity,
                       sim->force,
-                      sim->before,
                       sim->mass,
                       sim->edge_point,
                       sim->rest_length,
@@ -57,13 +56,6 @@ void *sim_table(struct sim *sim, size_t count, size_t size)
         memset(items, 0, bytes);
     sim->bytes += count * size;
     return items;
-}
-
-enum status sim_keep_before(struct sim *sim, struct error *err)
-{
-    if (!sim->before)
-        sim->before = sim_table(sim, sim->point_count, sizeof *sim->before);
-    return sim->before ? STATUS_OK : error_no_memory(err, "the places before a step");
 }
 
 /* *failed remembers that there was not enough. */
@@ -213,6 +205,7 @@ static enum status fill(struct sim *sim, const struct mesh *meshes, struct error
         struct sim_balloon *b = &sim->balloons[i];
         b->scene = &sim->scene->balloons[i];
         b->now = &sim->settings[i];
+        b->by_area = b->scene->gas.on || b->scene->pressure_on == SCENE_ON_AREAS;
         b->point_begin = point;
         b->edge_begin = edge;
         b->triangle_begin = triangle;

@@ -11,8 +11,7 @@ struct options {
     size_t set_count;
     const char *frames, *movie, *sheet, *log, *mesh;
     const char *checkpoint, *resume;
-    double checkpoint_every;   /* s */
-    const char *accuracy_cost; /* FILE.tsv, .png or .svg */
+    double checkpoint_every; /* s */
     bool estimate;
     unsigned threads; /* 0: as many as the machine has */
     bool hash, check, explain, help_scene;

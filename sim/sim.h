@@ -28,8 +28,6 @@ struct guard;
 struct hand;
 struct guard_rows;
 struct gas;
-struct obstacles;
-struct contact;
 struct gas_rims;
 struct membrane;
 struct threads;
@@ -53,6 +51,7 @@ struct sim_balloon {
     double mean_rest_length;   /* of its edges */
     double breathing_rate;     /* 1/s, for errors of speeds (weights.h) */
     struct sim_settings *now;  /* one of sim->settings */
+    bool by_area;              /* pressure acts on areas, not on each point alike */
     struct membrane *membrane; /* what acts in place of the springs (membrane.h); NULL: the springs */
     struct gas *gas;           /* what is sealed in (effect_gas.h); NULL: nothing, the pressure is given */
     struct gas_rims *rims;     /* of its holes, by whoever cuts the skin; NULL: there are none */
@@ -65,6 +64,20 @@ struct sim_settings {
     uint64_t ripped;                         /* 1: the scene's rip has opened */
     double membrane_range[2];                /* what the guard takes its stiffness for (membrane.h) */
 };
+
+/* The paper's pressure, a force on each point along its unit normal: 0 where pressure acts on areas. */
+static inline double sim_point_pressure(const struct sim_balloon *balloon)
+{
+    return balloon->by_area ? 0 : balloon->now->pressure;
+}
+
+/* What an outsider may want to know as it happens, such as an effect that wakes: kept until somebody reads it. */
+struct sim_news {
+    double time;
+    const char *effect, *text; /* "gas", "the neck is open" */
+    size_t balloon;
+};
+enum { SIM_NEWS_MAX = 16 };
 
 /* A share of one balloon's points: whoever works on it writes to these alone, and adds up what acts on a point in the order
  * of edges and triangles, so that sums are equal to the bit however many parts there are. */
@@ -128,7 +141,6 @@ const struct integrator *integrator_find(const char *name);
 enum effect_phase {
     EFFECT_OPEN,       /* once, when the tables are complete */
     EFFECT_FORCES,     /* adds to sim->force and sim->scalar_rate at the current state */
-    EFFECT_MOVED,      /* once the points have moved, before anything breaks: corrects how they did */
     EFFECT_AFTER_STEP, /* at the end of each accepted step */
     EFFECT_PHASES,
 };
@@ -146,14 +158,14 @@ struct effect {
     enum status (*open)(struct sim *sim, struct sim_balloon *balloon, struct error *err);
     void (*close)(struct sim *sim, struct sim_balloon *balloon);
     void (*apply)(struct sim *sim, struct sim_balloon *balloon); /* NULL: nothing that a kernel does not do */
-    /* EFFECT_MOVED: corrects sim->position and velocity after a step from sim->before; says so by sim->changed. */
-    enum status (*settle)(struct sim *sim, struct error *err);
     /* EFFECT_FORCES: at the end of each accepted step too. NULL: nothing. */
     void (*after)(struct sim *sim, struct sim_balloon *balloon);
     /* What it remembers from step to step beyond sim->scalar, as blocks; returns how many. NULL: nothing. */
     size_t (*blocks)(struct sim *sim, struct sim_balloon *balloon, struct sim_block *blocks);
-    /* For the ledger: what it holds now; and what it takes a second for good (dissipated) and brings from outside (work), at the
+    /* After a step, whether it can go on: STATUS_DIVERGED with the reason. NULL: always.
+     * For the ledger: what it holds now; and what it takes a second for good (dissipated) and brings from outside (work), at the
      * current state, each added. NULL: nothing. */
+    enum status (*check)(struct sim *sim, struct sim_balloon *balloon, struct error *err);
     double (*energy)(struct sim *sim, struct sim_balloon *balloon);
     void (*power)(struct sim *sim, struct sim_balloon *balloon, double *dissipated, double *work);
     /* EFFECT_FORCES: adds to df a K dx + b D dv (jacobian.h), the derivatives of its own forces at the current state. NULL:
@@ -182,7 +194,6 @@ struct sim_ledger {
         double begin;    /* kinetic and elastic energy when the accounts were opened */
         double fracture; /* what springs held when they let go */
         double user;     /* what changes of springs added */
-        double contact;  /* what obstacles and contact took */
     } account;
 };
 
@@ -199,7 +210,9 @@ struct sim_past {
 struct sim {
     /* Points: the paper's table 1. Its acceleration is force / mass. Rows are x, y, z and 0, aligned to 32 bytes. */
     uint32_t point_count;
-    double (*normal)[4]; /* [point_count] unit, outward; 0 where no skin is left; by the last sim_forces() */
+    /* [point_count] unit, outward; 0 where no skin is left; by the last sim_forces(). Of balloons that are pressed by area: the sum of
+     * twice the area vectors of the point's triangles. */
+    double (*normal)[4];
     double (*position)[4]; /* [point_count] length */
     double (*velocity)[4]; /* [point_count] length/s */
     double (*force)[4];    /* [point_count] by sim_forces() */
@@ -272,16 +285,15 @@ struct sim {
     double taken;         /* s: how far the last advance() moved; it comes in as the longest that it may be */
     struct sim_past past; /* for sim_look() */
     struct guard *guard;
-    double (*before)
-        [4]; /* [point_count] places when the step began; NULL: nothing that the scene calls for asks for them */
-    struct obstacles *obstacles; /* what stands in the way (obstacles.h); NULL: nothing */
-    struct contact *contact;     /* what keeps skins apart (contact.h); NULL: nothing */
-    struct hand *hand;           /* that pulls at it (live_hand.h); NULL: none */
+    struct hand *hand; /* that pulls at it (live_hand.h); NULL: none */
     uint64_t
         evaluations;   /* of sim_forces() since sim_open(), also of those for a look; nothing depends on it */
     uint64_t products; /* of sim_force_product(), likewise */
 
     struct sim_ledger ledger;
+
+    struct sim_news news[SIM_NEWS_MAX]; /* [news_count] since somebody set it to 0; later ones are lost */
+    size_t news_count;
 
     uint32_t *piece;    /* [edge_count] for sim_measure(): an edge of the same piece */
     double *piece_area; /* [edge_count] likewise: of the piece, at its root */
@@ -315,9 +327,6 @@ enum status sim_add_scalars(struct sim *sim, uint32_t count, uint32_t *first, st
 
 /* Zeroed memory on a line of the cache, free()d by whoever asked, which adds to sim->bytes. NULL: there is not enough. */
 void *sim_table(struct sim *sim, size_t count, size_t size);
-
-/* Makes sim->before, if there is none: for an effect's open. Error: STATUS_NO_MEMORY. */
-enum status sim_keep_before(struct sim *sim, struct error *err);
 
 /* Runs function on every part, each on its worker, and returns when all are done. */
 void sim_each_part(struct sim *sim,
@@ -408,9 +417,12 @@ void look_remember(struct sim *sim);
 enum status effects_resolve(struct sim *sim, struct error *err);
 void effects_close(struct sim *sim);
 void effects_run(struct sim *sim, enum effect_phase phase);
-enum status effects_settle(struct sim *sim, struct error *err); /* EFFECT_MOVED */
 
-/* Of all effects together (struct effect): their blocks, the energy that they hold, and their powers, which are added. */
+/* Tells it to whoever reads the news; text is static. */
+void sim_tell(struct sim *sim, const struct sim_balloon *balloon, const char *effect, const char *text);
+
+/* Of all effects together (struct effect): whether all can go on, their blocks, the energy that they hold, and their powers, which are added. */
+enum status effects_check(struct sim *sim, struct error *err);
 size_t effects_blocks(struct sim *sim, struct sim_block *blocks);
 double effects_energy(struct sim *sim);
 void effects_power(struct sim *sim, double *dissipated, double *work);

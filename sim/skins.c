@@ -88,10 +88,13 @@ void skins_update(struct skins *skins)
 {
     const struct sim *sim = skins->sim;
     sim_forces(skins->sim); /* for the normals where the points are now */
-    for (uint32_t p = 0; p < sim->point_count; p++)
-        for (int i = 0; i < 3; i++) {
-            skins->position[p][i] = sim->position[p][i];
-            skins->normal[p][i] = sim->normal[p][i];
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
+        for (uint32_t p = b->point_begin; p < b->point_end; p++) {
+            const double length = b->by_area ? vec3_length(sim->normal[p]) : 1;
+            for (int i = 0; i < 3; i++) {
+                skins->position[p][i] = sim->position[p][i];
+                skins->normal[p][i] = length > 0 ? sim->normal[p][i] / length : 0;
+            }
         }
     sim_material(skins->sim, skins->opacity, skins->shininess);
     for (uint32_t t = 0; t < sim->triangle_count; t++)
@@ -101,11 +104,7 @@ void skins_update(struct skins *skins)
 void skins_view(const struct scene_view *scene, struct render_view *view)
 {
     static const enum render_stereo stereo[] = {
-        [SCENE_MONO] = RENDER_MONO,         [SCENE_PARALLEL] = RENDER_PARALLEL,
-        [SCENE_CROSSED] = RENDER_CROSSED,   [SCENE_OVER_UNDER] = RENDER_OVER_UNDER,
-        [SCENE_RED_CYAN] = RENDER_RED_CYAN, [SCENE_INTERLACED] = RENDER_INTERLACED,
-        [SCENE_LEFT] = RENDER_LEFT,         [SCENE_RIGHT] = RENDER_RIGHT,
-    };
+        [SCENE_MONO] = RENDER_MONO, [SCENE_PARALLEL] = RENDER_PARALLEL, [SCENE_CROSSED] = RENDER_CROSSED};
     static const enum render_order orders[] = {[SCENE_ORDER_NONE] = RENDER_NONE,
                                                [SCENE_ORDER_SORT] = RENDER_SORT,
                                                [SCENE_ORDER_PEEL] = RENDER_PEEL,
@@ -113,7 +112,6 @@ void skins_view(const struct scene_view *scene, struct render_view *view)
     view->width = scene->size[0];
     view->height = scene->size[1];
     view->stereo = stereo[scene->stereo];
-    view->squeezed = scene->squeezed == 1;
     view->style = scene->style == SCENE_LATEX ? RENDER_LATEX : RENDER_PAPER;
     view->order = orders[scene->order];
     view->samples = scene->samples;

@@ -6,7 +6,6 @@
 #include "sim/kernels.h"
 #include "sim/ledger.h"
 #include "sim/membrane_kernels.h"
-#include "sim/vectors.h"
 
 #include <math.h>
 
@@ -34,13 +33,11 @@ static void part_forces(struct sim *sim, const struct sim_part *part, void *cont
     const struct sim_kernels *k = sim->kernels;
     for (const struct sim_chunk *c = part->chunks; c < part->chunks + part->chunk_count; c++) {
         k->clear_points(sim, c); /* 1  forces and normals are 0             */
-        if (c == part->chunks) {
+        if (c == part->chunks)
             coming_skin(sim, part);
-            k->coming_normals(sim, part);
-        }
-        skin_forces(sim, part, c);         /* 2  springs and dampers, or a membrane   */
-        k->triangle_normals(sim, part, c); /* 3  face normals, added to the points    */
-        k->pressure_forces(sim, part, c);  /* 4  pressure along each point's normal   */
+        skin_forces(sim, part, c);      /* 2  springs and dampers, or a membrane   */
+        kernels_press(k, sim, part, c); /* 3  face normals, added to the points    */
+                                        /* 4  pressure along each point's normal   */
     }
 }
 
@@ -48,9 +45,9 @@ void sim_forces(struct sim *sim)
 {
     sim->evaluations++;
     sim_each_part(sim, part_forces, NULL);
-    if (sim->ledger.on)
-        ledger_rates(sim);           /* what pressure and dampers do to the energy, where accounts are kept */
     effects_run(sim, EFFECT_FORCES); /* whatever else this scene calls for */
+    if (sim->ledger.on)
+        ledger_rates(sim); /* what all this does to the energy, where accounts are kept */
 }
 
 static void count_overlong(struct sim *sim, const struct sim_part *part, void *context)
@@ -155,19 +152,15 @@ enum status sim_step(struct sim *sim, struct error *err)
     enum status status = begin_step(sim, err); /* what the user or the guard changes */
     if (status)
         return status;
-    if (sim->before)
-        vector_copy(sim, sim->before, sim->position); /* for what watches the points' ways */
-    look_remember(sim);                               /*    for pictures of a moment within the step */
-    status = advance(sim, err);                       /* 1  positions, velocities                    */
-    if (status)
-        return status;
-    status = effects_settle(sim, err); /* what stands in the way */
+    look_remember(sim);         /*    for pictures of a moment within the step */
+    status = advance(sim, err); /* 1  positions, velocities                    */
     if (status)
         return status;
     break_edges(sim);    /* 2  edges past the threshold let go   } once, at the end of a step, so that */
     tear_triangles(sim); /* 3  triangles that lost two edges     } no trial state breaks anything      */
     effects_run(sim, EFFECT_AFTER_STEP);
-    return guard_check(sim, err);
+    status = effects_check(sim, err);
+    return status ? status : guard_check(sim, err);
 }
 
 bool sim_at_end(const struct sim *sim)

@@ -95,10 +95,7 @@ static void outer_part(struct sim *sim, const struct sim_part *part, void *conte
     const struct sim_kernels *k = sim->kernels;
     for (const struct sim_chunk *c = part->chunks; c < part->chunks + part->chunk_count; c++) {
         k->clear_points(sim, c);
-        if (c == part->chunks)
-            k->coming_normals(sim, part);
-        k->triangle_normals(sim, part, c);
-        k->pressure_forces(sim, part, c);
+        kernels_press(k, sim, part, c);
     }
 }
 

@@ -88,11 +88,13 @@ static double largest(rows a, uint32_t count)
 /* Products along random directions of size 1 must be the differences. Lengths are about 15 (level 2), so that with h = 1e-3
  * each derivative brings a factor of about 1/5 at worst: h^4 f'''''/30 is 1e-12 / 30 / 5^5 of f, and rounding 2e-16 f / h =
  * 2e-13 f; forces are some 1000 and the tolerance is 100 times that. */
-static void check_products(const char *const *changes)
+static void check_shaken(const char *const *changes, bool whole)
 {
     struct balloon b;
     uint64_t random = 5;
     open_shaken(&b, 2, 2, changes);
+    for (uint32_t t = 0; t < b.sim.triangle_count && whole; t++)
+        b.sim.triangle_active[t] = 1;
     struct sim *sim = &b.sim;
     rows dx = new_rows(sim), dv = new_rows(sim), exact = new_rows(sim), near = new_rows(sim);
     for (int repeat = 0; repeat < 5; repeat++) {
@@ -114,6 +116,16 @@ static void check_products(const char *const *changes)
     free(exact);
     free(near);
     close_shaken(&b);
+}
+
+static void check_products(const char *const *changes)
+{
+    check_shaken(changes, false);
+}
+
+static void check_whole(const char *const *changes)
+{
+    check_shaken(changes, true);
 }
 
 static void products_of_springs_are_the_differences_of_their_forces(void **state)
@@ -138,6 +150,22 @@ static void products_of_everything_at_once_are_the_differences(void **state)
 {
     (void)state;
     check_products(SETTINGS("balloons[0].pressure=50", "balloons[0].damping=3"));
+}
+
+static void products_of_pressure_on_areas_are_the_differences_of_its_forces(void **state)
+{
+    (void)state;
+    check_products(SETTINGS("balloons[0].pressure=1", "balloons[0].pressure_on=areas",
+                            "balloons[0].damping=0", "balloons[0].spring=0"));
+}
+
+/* Torn as the paper tears, a balloon is not closed, and a volume without its rims is no function of places alone: whole, then. */
+static void products_of_gas_are_the_differences_of_its_forces(void **state)
+{
+    (void)state;
+    check_whole(SETTINGS("balloons[0].gas.ambient=10", "balloons[0].gas.fill=2", "balloons[0].spring=0",
+                         "balloons[0].gas.process=adiabatic", "gravity.air_density=0.001",
+                         "balloons[0].gas.density=0.0005", "balloons[0].damping=0"));
 }
 
 /* a K dx + b D dx in one go: the product is linear, to the rounding of its sums of some 20 terms of at most 1e3. */
@@ -308,6 +336,8 @@ int main(void)
         cmocka_unit_test(products_of_dampers_are_the_differences_of_their_forces),
         cmocka_unit_test(products_of_pressure_are_the_differences_of_its_forces),
         cmocka_unit_test(products_of_everything_at_once_are_the_differences),
+        cmocka_unit_test(products_of_pressure_on_areas_are_the_differences_of_its_forces),
+        cmocka_unit_test(products_of_gas_are_the_differences_of_its_forces),
         cmocka_unit_test(factors_scale_the_two_parts_of_a_product),
         cmocka_unit_test(diagonal_blocks_are_those_of_the_products),
         cmocka_unit_test(moving_as_one_changes_no_force),

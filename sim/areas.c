@@ -1,0 +1,188 @@
+#include "sim/areas.h"
+#include "common/threads.h"
+#include "common/vec3.h"
+#include "sim/guard.h"
+#include "sim/kernels.h"
+#include "sim/vectors.h"
+
+struct volume {
+    const struct sim_balloon *balloon;
+    const unsigned char *held;
+    const double *origin;
+};
+
+static double volume_of_held(const struct sim *sim, uint32_t begin, uint32_t end, const struct volume *volume)
+{
+    double sum = 0;
+    for (uint32_t p = begin; p < end; p++)
+        for (int i = 0; i < 3 && volume->held[p - volume->balloon->point_begin]; i++)
+            sum += (sim->position[p][i] - volume->origin[i]) * sim->normal[p][i];
+    return sum;
+}
+
+static double volume_block(const struct sim *sim, uint32_t begin, uint32_t end, void *context)
+{
+    const struct volume *volume = context;
+    const struct sim_balloon *b = volume->balloon;
+    begin = begin < b->point_begin ? b->point_begin : begin;
+    end = end > b->point_end ? b->point_end : end;
+    if (begin >= end)
+        return 0;
+    return volume->held ? volume_of_held(sim, begin, end, volume)
+                        : sim->kernels->sum_volume(sim, begin, end, volume->origin);
+}
+
+double areas_volume(struct sim *sim, const struct sim_balloon *balloon, const unsigned char *held,
+                    const double origin[4])
+{
+    return vector_sum(sim, volume_block, &(struct volume){balloon, held, origin}) / 18;
+}
+
+struct push {
+    const struct sim_balloon *balloon;
+    const unsigned char *held;
+    const struct areas_pressure *pressure;
+};
+
+static void push_held(struct sim *sim, const struct sim_part *part, const struct push *push)
+{
+    const double *d = push->pressure->gradient;
+    for (uint32_t p = part->point_begin; p < part->point_end; p++)
+        for (int i = 0; i < 3 && push->held[p - push->balloon->point_begin]; i++)
+            sim->force[p][i] += (push->pressure->constant + vec3_dot(d, sim->position[p])) / 6 *
+                                sim->normal[p][i];
+}
+
+static void push_part(struct sim *sim, const struct sim_part *part, void *context)
+{
+    const struct push *push = context;
+    if (part->balloon != push->balloon)
+        return;
+    if (push->held)
+        push_held(sim, part, push);
+    else
+        sim->kernels->push_areas(sim, part, push->pressure->constant, push->pressure->gradient);
+}
+
+void areas_push(struct sim *sim, const struct sim_balloon *balloon, const unsigned char *held,
+                const struct areas_pressure *pressure)
+{
+    sim_each_part(sim, push_part, &(struct push){balloon, held, pressure});
+}
+
+/* Sums are over this many shares of the triangles, whoever works on them. */
+enum { SHARES = 64 };
+
+struct change {
+    const struct sim *sim;
+    const struct sim_balloon *balloon;
+    const unsigned char *held;
+    const double *origin;
+    double (*dx)[4];
+    struct areas_change share[SHARES];
+};
+
+/* Of all the cones, x0 . x1 x x2/6; a triangle's change is that of its prism. What the moving rim adds is the holes' business. */
+static void change_share(void *context, size_t index, unsigned worker)
+{
+    (void)worker;
+    struct change *c = context;
+    double(*x)[4] = c->sim->position, (*dx)[4] = c->dx;
+    const uint64_t count = c->balloon->triangle_end - c->balloon->triangle_begin;
+    const uint32_t begin = c->balloon->triangle_begin + (uint32_t)(count * index / SHARES),
+                   end = c->balloon->triangle_begin + (uint32_t)(count * (index + 1) / SHARES);
+    struct areas_change sum = {0};
+    for (uint32_t t = begin; t < end; t++) {
+        const uint32_t *p = c->sim->triangle_point[t];
+        if (!c->sim->triangle_active[t] || (c->held && !c->held[p[0] - c->balloon->point_begin]))
+            continue;
+        double twice[3];
+        vec3_triangle(x[p[0]], x[p[1]], x[p[2]], twice);
+        for (int i = 0; i < 3; i++) {
+            sum.volume += twice[i] * (x[p[0]][i] - c->origin[i]);
+            sum.change += twice[i] * (dx[p[0]][i] + dx[p[1]][i] + dx[p[2]][i]);
+        }
+    }
+    c->share[index] = sum;
+}
+
+struct areas_change areas_change(struct sim *sim, const struct sim_balloon *balloon, const double origin[4],
+                                 const unsigned char *held, double (*dx)[4])
+{
+    struct change c = {.sim = sim, .balloon = balloon, .held = held, .origin = origin, .dx = dx};
+    threads_run(sim->pool, SHARES, change_share, &c);
+    struct areas_change sum = {0};
+    for (int i = 0; i < SHARES; i++) {
+        sum.volume += c.share[i].volume / 6;
+        sum.change += c.share[i].change / 6;
+    }
+    return sum;
+}
+
+struct product {
+    const struct sim_balloon *balloon;
+    const struct areas_pressure *pressure, *change;
+    const unsigned char *held;
+    double a;
+    double (*dx)[4], (*df)[4];
+};
+
+/* F = q N/6 with q = c + d . x: dF = (q dN + dq N)/6, and of twice an area s1 x s2, dN = d1 x s2 + s1 x d2. */
+static void product_triangle(const struct sim *sim, const struct sim_part *part,
+                             const struct product *product, uint32_t t)
+{
+    double(*x)[4] = sim->position, (*dx)[4] = product->dx;
+    const double *d = product->pressure->gradient;
+    const uint32_t *p = sim->triangle_point[t];
+    if (!sim->triangle_active[t] || (product->held && !product->held[p[0] - part->balloon->point_begin]))
+        return;
+    double s1[3], s2[3], d1[3], d2[3], twice[3], turn1[3], turn2[3];
+    vec3_sub(x[p[1]], x[p[0]], s1);
+    vec3_sub(x[p[2]], x[p[0]], s2);
+    vec3_sub(dx[p[1]], dx[p[0]], d1);
+    vec3_sub(dx[p[2]], dx[p[0]], d2);
+    vec3_cross(s1, s2, twice);
+    vec3_cross(d1, s2, turn1);
+    vec3_cross(s1, d2, turn2);
+    for (int k = 0; k < 3; k++)
+        if (p[k] - part->point_begin < part->point_end - part->point_begin) {
+            const double q = product->pressure->constant + vec3_dot(d, x[p[k]]),
+                         dq = product->change->constant + vec3_dot(product->change->gradient, x[p[k]]) +
+                              vec3_dot(d, dx[p[k]]);
+            for (int i = 0; i < 3; i++)
+                product->df[p[k]][i] += product->a / 6 * (q * (turn1[i] + turn2[i]) + dq * twice[i]);
+        }
+}
+
+static void product_part(struct sim *sim, const struct sim_part *part, void *context)
+{
+    const struct product *product = context;
+    if (part->balloon != product->balloon)
+        return;
+    for (uint32_t i = 0; i < part->triangle_in_count; i++)
+        product_triangle(sim, part, product, part->triangle_in[i]);
+    for (uint32_t t = part->triangle_begin; t < part->triangle_end; t++)
+        product_triangle(sim, part, product, t);
+}
+
+void areas_product(struct sim *sim, const struct sim_balloon *balloon, const struct areas_pressure *pressure,
+                   const struct areas_pressure *change, const unsigned char *held, double a, double (*dx)[4],
+                   double (*df)[4])
+{
+    sim_each_part(sim, product_part, &(struct product){balloon, pressure, change, held, a, dx, df});
+}
+
+void areas_bound(const struct sim *sim, const struct sim_balloon *balloon, double pressure,
+                 const struct guard_rows *rows)
+{
+    for (uint32_t t = balloon->triangle_begin; t < balloon->triangle_end; t++) {
+        const uint32_t *p = sim->triangle_point[t];
+        double length = 0;
+        for (int k = 0; k < 3; k++)
+            length += vec3_distance(sim->position[p[k]], sim->position[p[(k + 1) % 3]]);
+        for (int k = 0; k < 3 && sim->triangle_active[t]; k++)
+            rows->stiffness[p[k]] += fabs(pressure) / 6 * length;
+    }
+    for (uint32_t p = balloon->point_begin; p < balloon->point_end; p++)
+        rows->push[p] += fabs(pressure) / 6 * vec3_length(sim->normal[p]);
+}

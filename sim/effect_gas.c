@@ -1,0 +1,366 @@
+#include "common/vec3.h"
+#include "sim/effects.h"
+#include "sim/gas.h"
+#include "sim/guard.h"
+#include "sim/vectors.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static bool wanted(const struct scene_balloon *balloon)
+{
+    return balloon->gas.on;
+}
+
+/* What volumes are seen from: the balloon's first point, so that nothing is lost of them however far it has flown. */
+static void origin_of(const struct sim *sim, const struct sim_balloon *b, double origin[4])
+{
+    memcpy(origin, sim->position[b->point_begin], 4 * sizeof *origin);
+}
+
+static const unsigned char *held_of(const struct gas *gas)
+{
+    return gas->memory.let_go ? gas->held : NULL;
+}
+
+static void set_weights(struct gas *gas, const struct scene_gravity *gravity)
+{
+    if (!gravity->on || gravity->air_density == 0)
+        return;
+    memcpy(gas->down, gravity->acceleration, sizeof gas->down);
+    gas->air_weight = gravity->air_density;
+    gas->gas_weight = gas->scene->density / gas->scene->ambient; /* times N/V */
+}
+
+/* The volume as positions have it, whatever the last forces were. */
+static double volume_now(struct sim *sim, const struct sim_balloon *b)
+{
+    double origin[4];
+    origin_of(sim, b, origin);
+    gas_find_holes(sim, b);
+    return areas_change(sim, b, origin, held_of(b->gas), sim->velocity).volume +
+           gas_fan_volume(&b->gas->holes, origin);
+}
+
+static void fill(struct sim *sim, struct sim_balloon *b)
+{
+    struct gas *gas = b->gas;
+    double *scalar = &sim->scalar[gas->scalar];
+    gas->rest_volume = gas->volume = volume_now(sim, b);
+    gas->filling = gas->scene->ambient * gas->rest_volume;
+    scalar[GAS_AMOUNT] = gas->scene->fill * gas->filling;
+    scalar[GAS_ENTROPY] = gas->g == 1 ? 1 : pow(gas->scene->fill * gas->scene->ambient, 1 - gas->g);
+    gas->pressure = gas->scene->fill * gas->scene->ambient;
+    gas->memory.neck_open = gas->scene->neck > 0 && gas->scene->neck_at <= 0;
+}
+
+static enum status open(struct sim *sim, struct sim_balloon *b, struct error *err)
+{
+    struct gas *gas = b->gas = calloc(1, sizeof *gas);
+    if (!gas)
+        return error_no_memory(err, "the gas");
+    gas->scene = &b->scene->gas;
+    gas->g = gas->scene->process == SCENE_ADIABATIC ? gas->scene->gamma : 1;
+    set_weights(gas, &sim->scene->gravity);
+    gas->held = sim_table(sim, b->point_end - b->point_begin, sizeof *gas->held);
+    if (!gas->held)
+        return error_no_memory(err, "the gas");
+    memset(gas->held, 1, b->point_end - b->point_begin);
+    sim->bytes += sizeof *gas;
+    enum status status = sim_add_scalars(sim, GAS_SCALARS, &gas->scalar, err);
+    if (!status && gas->scene->neck > 0)
+        status = gas_find_neck(sim, b, err);
+    if (!status)
+        fill(sim, b);
+    return status;
+}
+
+static void close(struct sim *sim, struct sim_balloon *b)
+{
+    (void)sim;
+    if (b->gas) {
+        free(b->gas->neck);
+        free(b->gas->held);
+    }
+    free(b->gas);
+    b->gas = NULL;
+}
+
+static size_t blocks(struct sim *sim, struct sim_balloon *b, struct sim_block *list)
+{
+    (void)sim;
+    list[0] = (struct sim_block){"gas", &b->gas->memory, sizeof b->gas->memory};
+    list[1] = (struct sim_block){"held by gas", b->gas->held, b->point_end - b->point_begin};
+    return 2;
+}
+
+struct gas_drive gas_drive(const struct sim *sim, const struct sim_balloon *balloon)
+{
+    const struct gas *gas = balloon->gas;
+    const double amount = gas_amount(sim, gas);
+    return (struct gas_drive){.pressure = gas->pressure,
+                              .density = gas->scene->density * amount / (gas->volume * gas->scene->ambient),
+                              .warmth = gas->pressure * gas->volume / amount,
+                              .amount_of_mass = gas->scene->ambient / gas->scene->density,
+                              .to_even = amount / (gas->pressure * gas->g * 2 * sim->step)};
+}
+
+void gas_stream(struct sim *sim, const struct sim_balloon *balloon, double rate, double warmth)
+{
+    const struct gas *gas = balloon->gas;
+    double *scalar_rate = &sim->scalar_rate[gas->scalar];
+    if (gas->memory.gone) { /* into the air */
+        scalar_rate[GAS_BROUGHT] -= rate;
+        return;
+    }
+    scalar_rate[GAS_AMOUNT] += rate;
+    if (rate > 0 && gas->g != 1)
+        scalar_rate[GAS_ENTROPY] += gas->g * sim->scalar[gas->scalar + GAS_ENTROPY] * rate *
+                                    (warmth / (gas->pressure * gas->volume) - 1 / gas_amount(sim, gas));
+}
+
+/* By pump and through the skin. Near its goal the pump slows down, so that it is not overshot. */
+static void pump_and_leak(struct sim *sim, const struct sim_balloon *b)
+{
+    const struct gas *gas = b->gas;
+    const struct gas_drive in = gas_drive(sim, b);
+    const double gauge = in.pressure - gas->scene->ambient,
+                 missing = gas->scene->pump_until * gas->filling - gas_amount(sim, gas);
+    const double pumped = fmax(0, fmin(gas->scene->pump * gas->filling, missing / sim->step));
+    const double leaked = fmin(gas->scene->leak * gas->scene->ambient, in.to_even) * gauge;
+    gas_stream(sim, b, pumped, 1);
+    gas_stream(sim, b, -leaked, 1);
+    sim->scalar_rate[gas->scalar + GAS_BROUGHT] += pumped - leaked;
+}
+
+/* At the point x: p - pa + (r - ra) g . x - r g . x0 + ra g . c, with the densities r and ra of gas and air, g gravity, x0 the first point,
+ * where the gas's pressure is p, and c the centre at rest, where the air's is pa. */
+static struct areas_pressure pressure_of(const struct sim *sim, const struct sim_balloon *b, double pressure,
+                                         double volume)
+{
+    const struct gas *gas = b->gas;
+    const double density = gas->gas_weight * gas_amount(sim, gas) / volume;
+    struct areas_pressure q = {.constant = pressure - gas->scene->ambient};
+    q.constant += gas->air_weight * vec3_dot(gas->down, b->centre) -
+                  density * vec3_dot(gas->down, sim->position[b->point_begin]);
+    for (int i = 0; i < 3; i++)
+        q.gradient[i] = (density - gas->air_weight) * gas->down[i];
+    return q;
+}
+
+static void apply(struct sim *sim, struct sim_balloon *b)
+{
+    struct gas *gas = b->gas;
+    double origin[4], *rate = &sim->scalar_rate[gas->scalar];
+    memset(rate, 0, GAS_SCALARS * sizeof *rate);
+    if (gas->memory.gone)
+        return;
+    origin_of(sim, b, origin);
+    gas_find_holes(sim, b);
+    gas->volume = areas_volume(sim, b, held_of(gas), origin) + gas_fan_volume(&gas->holes, origin);
+    gas->volume = fmax(gas->volume, 1e-9 * gas->rest_volume); /* check() sees to what is below */
+    gas->pressure = gas_pressure(gas_amount(sim, gas), gas->volume, sim->scalar[gas->scalar + GAS_ENTROPY],
+                                 gas->g);
+    const struct areas_pressure pressure = pressure_of(sim, b, gas->pressure, gas->volume);
+    areas_push(sim, b, held_of(gas), &pressure);
+    pump_and_leak(sim, b);
+    gas_let_out(sim, b);
+}
+
+/* The gas is gone once the holes are wider than half a sphere of its volume: 2 pi R^2. */
+static bool is_gone(const struct gas *gas)
+{
+    const double radius = cbrt(3 * fmax(gas->volume, 0) / (4 * M_PI));
+    return gas->holes.count > 0 && gas_openings(gas) >= 2 * M_PI * radius * radius;
+}
+
+static void let_all_go(struct sim *sim, struct sim_balloon *b)
+{
+    double *scalar = &sim->scalar[b->gas->scalar];
+    scalar[GAS_BROUGHT] -= scalar[GAS_AMOUNT];
+    scalar[GAS_AMOUNT] = 0;
+    b->gas->memory.gone = 1;
+    b->gas->pressure = b->gas->scene->ambient;
+    sim->changed = true;
+    guard_outdated(sim);
+    sim_tell(sim, b, "gas", "has left through the holes, and sleeps");
+}
+
+/* The gauge pressure that the bound counts with: a thousandth of the pressure at the least, so that a balloon that is filled from
+ * nothing does not ask for a new one at every step. */
+static double gauge_to_bound(const struct gas *gas)
+{
+    return fmax(fabs(gas->pressure - gas->scene->ambient), 1e-3 * gas->pressure);
+}
+
+static bool is_bound_outdated(const struct gas *gas)
+{
+    const struct gas_memory *memory = &gas->memory;
+    const double volume = gas->volume / memory->bound_volume,
+                 pressure = gas->pressure / memory->bound_pressure,
+                 gauge = gauge_to_bound(gas) / memory->bound_gauge;
+    return !(volume > 0.8 && volume < 1.25 && pressure > 0.8 && pressure < 1.25 && gauge < 1.5 &&
+             gauge > 0.5);
+}
+
+static void after(struct sim *sim, struct sim_balloon *b)
+{
+    struct gas *gas = b->gas;
+    struct gas_memory *memory = &gas->memory;
+    if (!memory->neck_open && gas->scene->neck > 0 && sim->time >= gas->scene->neck_at) {
+        memory->neck_open = 1;
+        sim->changed = true;
+        sim_tell(sim, b, "gas", "streams out of the neck");
+    }
+    if (!memory->gone && is_gone(gas))
+        let_all_go(sim, b);
+    if (!memory->gone && is_bound_outdated(gas))
+        guard_outdated(sim);
+}
+
+static enum status check(struct sim *sim, struct sim_balloon *b, struct error *err)
+{
+    const struct gas *gas = b->gas;
+    if (gas->memory.gone || gas->volume > 1e-6 * gas->rest_volume)
+        return STATUS_OK;
+    return error_set(
+        err, STATUS_DIVERGED,
+        "%s: diverged at time %g (step %llu): balloons[%zu] holds gas in a volume of less than a "
+        "millionth of that at rest: its skin has collapsed or turned inside out; take a shorter "
+        "step, or another integrator",
+        sim->scene->path, sim->time, (unsigned long long)sim->steps, (size_t)(b - sim->balloons));
+}
+
+/* F_i = q N_i/6, where q follows the volume: dp/dV = -g p/V, and the gas's density dr/dV = -r/V. Thrust is taken as constant: Newton's method
+ * does without. */
+static void product(struct sim *sim, struct sim_balloon *b, double a, double (*dx)[4], double f,
+                    double (*dv)[4], double (*df)[4])
+{
+    (void)f;
+    (void)dv;
+    const struct gas *gas = b->gas;
+    double origin[4];
+    if (a == 0 || gas->memory.gone)
+        return;
+    origin_of(sim, b, origin);
+    gas_find_holes(sim, b);
+    const struct areas_change of = areas_change(sim, b, origin, held_of(gas), dx);
+    const double volume = of.volume + gas_fan_volume(&gas->holes, origin),
+                 change = of.change + gas_fan_change(sim, b, dx);
+    const double p = gas_pressure(gas_amount(sim, gas), volume, sim->scalar[gas->scalar + GAS_ENTROPY],
+                                  gas->g);
+    const struct areas_pressure pressure = pressure_of(sim, b, p, volume);
+    const double density = gas->gas_weight * gas_amount(sim, gas) / volume,
+                 thinner = density * change / volume;
+    struct areas_pressure d = {.constant = -gas->g * p / volume * change +
+                                           thinner * vec3_dot(gas->down, sim->position[b->point_begin]) -
+                                           density * vec3_dot(gas->down, dx[b->point_begin])};
+    for (int i = 0; i < 3; i++)
+        d.gradient[i] = -thinner * gas->down[i];
+    areas_product(sim, b, &pressure, &d, held_of(gas), a, dx, df);
+}
+
+/* The stiffness of areas, and g p/V times a point's area vector times those of all others; both for half as much again. */
+static void bound(const struct sim *sim, const struct sim_balloon *b, const struct guard_rows *rows)
+{
+    struct gas *gas = b->gas;
+    double all = 0;
+    if (gas->memory.gone)
+        return;
+    gas->memory.bound_volume = gas->volume;
+    gas->memory.bound_pressure = gas->pressure;
+    gas->memory.bound_gauge = gauge_to_bound(gas);
+    areas_bound(sim, b, 1.5 * gas->memory.bound_gauge, rows);
+    for (uint32_t p = b->point_begin; p < b->point_end; p++)
+        all += vec3_length(sim->normal[p]) / 6;
+    for (uint32_t p = b->point_begin; p < b->point_end; p++)
+        rows->stiffness[p] += 1.5 * gas->g * gas->pressure / gas->volume * all * vec3_length(sim->normal[p]) /
+                              6;
+}
+
+static double energy(struct sim *sim, struct sim_balloon *b)
+{
+    const struct gas *gas = b->gas;
+    if (gas->memory.gone)
+        return 0;
+    return gas_energy(gas_amount(sim, gas), volume_now(sim, b), sim->scalar[gas->scalar + GAS_ENTROPY],
+                      gas->g, gas->scene->ambient);
+}
+
+struct moving {
+    const struct sim_balloon *balloon;
+    double constant, gradient[3];
+};
+
+static double pushing_power(const struct sim *sim, uint32_t begin, uint32_t end, void *context)
+{
+    const struct moving *m = context;
+    const struct sim_balloon *b = m->balloon;
+    const unsigned char *held = held_of(b->gas);
+    double power = 0;
+    for (uint32_t p = begin; p < end; p++)
+        if (p - b->point_begin < b->point_end - b->point_begin && (!held || held[p - b->point_begin]))
+            power += (m->constant + vec3_dot(m->gradient, sim->position[p])) / 6 *
+                     vec3_dot(sim->normal[p], sim->velocity[p]);
+    return power;
+}
+
+/* What pumps bring and what the air lifts is work; what streams out is lost, and what a hole's edge does not catch of the pressure. */
+static void power(struct sim *sim, struct sim_balloon *b, double *dissipated, double *work)
+{
+    const struct gas *gas = b->gas;
+    if (gas->memory.gone)
+        return;
+    const double *scalar = &sim->scalar[gas->scalar], *rate = &sim->scalar_rate[gas->scalar];
+    const double streams = gas_energy_rate(scalar[GAS_AMOUNT], gas->volume, scalar[GAS_ENTROPY], gas->g,
+                                           gas->scene->ambient, rate[GAS_AMOUNT], rate[GAS_ENTROPY]);
+    const double gauge = gas->pressure - gas->scene->ambient;
+    *(streams > 0 ? work : dissipated) += fabs(streams);
+    *dissipated += gauge * gas_fan_change(sim, b, sim->velocity);
+    if (gas->air_weight > 0) {
+        const struct areas_pressure q = pressure_of(sim, b, gas->pressure, gas->volume);
+        struct moving m = {b, q.constant - gauge, {q.gradient[0], q.gradient[1], q.gradient[2]}};
+        *work += vector_sum(sim, pushing_power, &m);
+    }
+}
+
+void gas_let_go(struct sim *sim, struct sim_balloon *balloon, const uint32_t *points, uint32_t count)
+{
+    struct gas *gas = balloon->gas;
+    if (!gas)
+        return;
+    for (uint32_t i = 0; i < count; i++)
+        gas->held[points[i] - balloon->point_begin] = 0;
+    gas->memory.let_go = 1;
+    sim->changed = true;
+}
+
+struct gas_look gas_look(struct sim *sim, const struct sim_balloon *balloon)
+{
+    struct gas *gas = balloon->gas;
+    if (!gas)
+        return (struct gas_look){0};
+    const double *scalar = &sim->scalar[gas->scalar];
+    struct gas_look look = {
+        .volume = volume_now(sim, balloon), .amount = scalar[GAS_AMOUNT], .brought = scalar[GAS_BROUGHT]};
+    look.hole_area = gas_openings(gas);
+    if (!gas->memory.gone)
+        look.gauge_pressure = gas_pressure(scalar[GAS_AMOUNT], look.volume, scalar[GAS_ENTROPY], gas->g) -
+                              gas->scene->ambient;
+    return look;
+}
+
+const struct effect effect_gas = {.name = "gas",
+                                  .phase = EFFECT_FORCES,
+                                  .wanted = wanted,
+                                  .open = open,
+                                  .close = close,
+                                  .apply = apply,
+                                  .after = after,
+                                  .blocks = blocks,
+                                  .product = product,
+                                  .bound = bound,
+                                  .check = check,
+                                  .energy = energy,
+                                  .power = power,
+                                  .source = "ideal gas; Saint-Venant & Wantzel 1839"};

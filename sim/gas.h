@@ -1,0 +1,64 @@
+/* The gas in one balloon, as effect_gas.c and gas_holes.c keep it (effect_gas.h says what it is). */
+#ifndef SIM_GAS_H
+#define SIM_GAS_H
+
+#include "sim/areas.h"
+#include "sim/effect_gas.h"
+#include "sim/gas_law.h"
+
+/* Its scalars. */
+enum { GAS_AMOUNT, GAS_ENTROPY, GAS_BROUGHT, GAS_SCALARS };
+
+/* What closes the skin: for each hole the middle of its rim and its vector area, inwards. */
+struct gas_holes {
+    uint32_t count;
+    double middle[GAS_HOLES_MAX][3], area[GAS_HOLES_MAX][3];
+    uint32_t sides[GAS_HOLES_MAX];
+};
+
+struct gas {
+    const struct scene_gas *scene;
+    uint32_t scalar;             /* the first of its own */
+    double g;                    /* what p goes by */
+    double rest_volume, filling; /* N that fills it at ambient pressure */
+    double gas_weight, air_weight;
+    double down[3]; /* acceleration of gravity, where the air has weight */
+    struct gas_holes holes;
+    uint32_t *neck; /* [neck_count] points that feel its thrust; owned */
+    uint32_t neck_count;
+    unsigned char *held; /* [points] of the balloon: 0 where a piece has fallen off; owned */
+
+    double volume, pressure; /* by the last sim_forces() */
+
+    struct gas_memory {
+        double bound_volume, bound_pressure, bound_gauge; /* for which the guard's bound was found */
+        uint64_t gone, let_go,
+            neck_open; /* 1: nothing is left to press; pieces have fallen off; the neck has opened */
+    } memory;
+};
+
+static inline double gas_amount(const struct sim *sim, const struct gas *gas)
+{
+    return sim->scalar[gas->scalar + GAS_AMOUNT];
+}
+
+/* Finds the holes as they are. */
+void gas_find_holes(const struct sim *sim, const struct sim_balloon *balloon);
+
+/* The volume of the fans that close them, seen from `origin`. */
+double gas_fan_volume(const struct gas_holes *holes, const double origin[3]);
+
+/* The same's change as the points move by dx; exact also for what the moving rim does to the skin's volume. */
+double gas_fan_change(const struct sim *sim, const struct sim_balloon *balloon, double (*dx)[4]);
+
+/* What gets out through holes and neck a second: sets the rates of the scalars for it, and adds the jets' thrust to the forces beyond the
+ * pressure that is missing where the holes are. */
+void gas_let_out(struct sim *sim, struct sim_balloon *balloon);
+
+/* Area of all openings. */
+double gas_openings(const struct gas *gas);
+
+/* Finds the points at the neck; STATUS_NO_MEMORY. */
+enum status gas_find_neck(struct sim *sim, const struct sim_balloon *balloon, struct error *err);
+
+#endif

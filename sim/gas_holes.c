@@ -1,0 +1,144 @@
+/* What closes a torn skin, and what gets out where it is open. */
+#include "common/vec3.h"
+#include "sim/gas.h"
+#include "sim/patch.h"
+
+#include <string.h>
+
+static uint32_t hole_of(const struct gas_rims *rims, uint32_t side)
+{
+    return rims->hole_count > GAS_HOLES_MAX ? 0 : rims->hole[side];
+}
+
+void gas_find_holes(const struct sim *sim, const struct sim_balloon *balloon)
+{
+    struct gas_holes *holes = &balloon->gas->holes;
+    const struct gas_rims *rims = balloon->rims;
+    holes->count = 0;
+    if (!rims || rims->side_count == 0)
+        return;
+    memset(holes, 0, sizeof *holes);
+    holes->count = rims->hole_count > GAS_HOLES_MAX ? 1 : rims->hole_count;
+    for (uint32_t i = 0; i < rims->side_count; i++) {
+        const uint32_t h = hole_of(rims, i);
+        for (int k = 0; k < 3; k++)
+            holes->middle[h][k] += sim->position[rims->side[i][0]][k];
+        holes->sides[h]++;
+    }
+    for (uint32_t h = 0; h < holes->count; h++)
+        for (int k = 0; k < 3 && holes->sides[h]; k++)
+            holes->middle[h][k] /= holes->sides[h];
+    for (uint32_t i = 0; i < rims->side_count; i++) {
+        const uint32_t h = hole_of(rims, i);
+        double twice[3];
+        vec3_triangle(holes->middle[h], sim->position[rims->side[i][0]], sim->position[rims->side[i][1]],
+                      twice);
+        for (int k = 0; k < 3; k++)
+            holes->area[h][k] += twice[k] / 2;
+    }
+}
+
+double gas_fan_volume(const struct gas_holes *holes, const double origin[3])
+{
+    double volume = 0;
+    for (uint32_t h = 0; h < holes->count; h++) {
+        double middle[3];
+        vec3_sub(holes->middle[h], origin, middle);
+        volume -= vec3_dot(middle, holes->area[h]) / 3;
+    }
+    return volume;
+}
+
+/* Of the fan's triangle (middle, b, a) as of any other of the closed surface: its twice area times the sum of the ways of its corners, over 6. */
+double gas_fan_change(const struct sim *sim, const struct sim_balloon *balloon, double (*dx)[4])
+{
+    const struct gas_holes *holes = &balloon->gas->holes;
+    const struct gas_rims *rims = balloon->rims;
+    double way[GAS_HOLES_MAX][3], change = 0;
+    memset(way, 0, sizeof way);
+    for (uint32_t i = 0; holes->count && i < rims->side_count; i++)
+        for (int k = 0; k < 3; k++)
+            way[hole_of(rims, i)][k] += dx[rims->side[i][0]][k] / holes->sides[hole_of(rims, i)];
+    for (uint32_t i = 0; holes->count && i < rims->side_count; i++) {
+        const uint32_t h = hole_of(rims, i), a = rims->side[i][0], b = rims->side[i][1];
+        double twice[3];
+        vec3_triangle(holes->middle[h], sim->position[b], sim->position[a], twice);
+        for (int k = 0; k < 3; k++)
+            change += twice[k] * (way[h][k] + dx[a][k] + dx[b][k]) / 6;
+    }
+    return change;
+}
+
+static double neck_area(const struct gas *gas)
+{
+    return gas->memory.neck_open ? gas->scene->neck : 0;
+}
+
+double gas_openings(const struct gas *gas)
+{
+    double area = neck_area(gas);
+    for (uint32_t h = 0; h < gas->holes.count; h++)
+        area += vec3_length(gas->holes.area[h]);
+    return area;
+}
+
+/* The jet's thrust beyond the pressure that is missing at the hole, `extra` a unit of area, alike on all of the rim. */
+static void thrust_on_rims(struct sim *sim, const struct sim_balloon *balloon, double extra)
+{
+    const struct gas_holes *holes = &balloon->gas->holes;
+    const struct gas_rims *rims = balloon->rims;
+    for (uint32_t i = 0; holes->count && i < rims->side_count; i++) {
+        const uint32_t h = hole_of(rims, i);
+        for (int k = 0; k < 3; k++)
+            sim->force[rims->side[i][0]][k] += extra * holes->area[h][k] / holes->sides[h];
+    }
+}
+
+/* Against the way in which the neck looks. */
+static void thrust_on_neck(struct sim *sim, const struct gas *gas, double force)
+{
+    double out[3] = {0};
+    for (uint32_t i = 0; i < gas->neck_count; i++)
+        for (int k = 0; k < 3; k++)
+            out[k] += sim->normal[gas->neck[i]][k];
+    const double length = vec3_length(out);
+    for (uint32_t i = 0; i < gas->neck_count && length > 0; i++)
+        for (int k = 0; k < 3; k++)
+            sim->force[gas->neck[i]][k] -= force * out[k] / length / gas->neck_count;
+}
+
+/* Air that is drawn in pushes at nothing: its speed is lost inside. */
+void gas_let_out(struct sim *sim, struct sim_balloon *balloon)
+{
+    struct gas *gas = balloon->gas;
+    const struct scene_gas *scene = gas->scene;
+    const double area = gas_openings(gas);
+    if (area == 0)
+        return;
+    const struct gas_drive in = gas_drive(sim, balloon);
+    const double gauge = in.pressure - scene->ambient, most = in.to_even * fabs(gauge);
+    if (gauge > 0) {
+        const struct gas_jet jet = gas_jet(in.pressure, in.density, scene->ambient, scene->gamma,
+                                           scene->discharge);
+        const double rate = jet.flux * area * in.amount_of_mass, share = rate > most ? most / rate : 1;
+        gas_stream(sim, balloon, -share * rate, in.warmth);
+        sim->scalar_rate[gas->scalar + GAS_BROUGHT] -= share * rate;
+        thrust_on_rims(sim, balloon, share * jet.thrust - gauge);
+        thrust_on_neck(sim, gas, share * jet.thrust * neck_area(gas));
+    } else if (gauge < 0) {
+        const struct gas_jet jet = gas_jet(scene->ambient, scene->density, in.pressure, scene->gamma,
+                                           scene->discharge);
+        const double rate = fmin(jet.flux * area * in.amount_of_mass, most);
+        gas_stream(sim, balloon, rate, 1);
+        sim->scalar_rate[gas->scalar + GAS_BROUGHT] += rate;
+    }
+}
+
+/* Those within a circle of the neck's area, at rest. */
+enum status gas_find_neck(struct sim *sim, const struct sim_balloon *balloon, struct error *err)
+{
+    struct gas *gas = balloon->gas;
+    const double reach = sqrt(gas->scene->neck / M_PI) / balloon->radius * 180 / M_PI;
+    return patch_find(sim, balloon, gas->scene->neck_place, fmin(reach, 90), &gas->neck, &gas->neck_count,
+                      err);
+}
