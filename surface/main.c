@@ -263,6 +263,8 @@ static enum status check_files(const struct arguments *arguments, struct error *
 static enum status price(const struct arguments *arguments, const struct octree *tree, struct error *err)
 {
     struct cost_table table;
+    if (cost_check(arguments->cost, err))
+        return err->status;
     progress_begin("pricing", "%", 100);
     enum status status = surface_cost(tree, &arguments->options, &table, err);
     progress_end();

@@ -69,27 +69,60 @@ static enum status draw(const struct cost_table *table, const char *sculpture, c
             label[row] = dial == COST_CUBE_SIZE && row % 2 ? "" : table->rows[row].setting;
         }
         for (int i = 0; i < 2; i++)
-            series[i][dial] = (struct plot_series){cost_dial_names[dial], PLOT_CURVE,    &error[i][first],
-                                                   &seconds[first],       &label[first], row - first};
+            series[i][dial] = (struct plot_series){.name = cost_dial_names[dial],
+                                                   .style = PLOT_CURVE,
+                                                   .x = &error[i][first],
+                                                   .y = &seconds[first],
+                                                   .label = &label[first],
+                                                   .count = row - first};
     }
-    const struct plot_panel panels[] = {
-        {"distance from the surface", "RMS error, share of the extent", "seconds", true, true, series[0],
-         COST_DIALS},
-        {"volume", "relative error", "seconds", true, true, series[1], COST_DIALS}};
-    const struct plot plot = {sculpture, panels, 2, 2};
+    const struct plot_panel panels[] = {{.title = "distance from the surface",
+                                         .x_label = "RMS error, share of the extent",
+                                         .y_label = "seconds",
+                                         .log_x = true,
+                                         .log_y = true,
+                                         .series = series[0],
+                                         .series_count = COST_DIALS},
+                                        {.title = "volume",
+                                         .x_label = "relative error",
+                                         .y_label = "seconds",
+                                         .log_x = true,
+                                         .log_y = true,
+                                         .series = series[1],
+                                         .series_count = COST_DIALS}};
+    const struct plot plot = {.title = sculpture, .panels = panels, .panel_count = 2, .columns = 2};
     return plot_save(&plot, path, err);
+}
+
+/* The table's name: beside a picture it has the picture's. NULL: no memory. */
+static char *table_name(const char *path)
+{
+    char *name = strdup(path);
+    if (name)
+        memcpy(name + strlen(name) - 3, "tsv", 3);
+    return name;
+}
+
+enum status cost_check(const char *path, struct error *err)
+{
+    struct file_out *out;
+    char *name = table_name(path);
+    if (!name)
+        return error_no_memory(err, path);
+    enum status status = file_out_open(name, &out, err);
+    if (status == STATUS_OK)
+        file_out_abandon(out);
+    free(name);
+    return status;
 }
 
 enum status cost_save(const struct cost_table *table, const char *sculpture, const char *path,
                       struct error *err)
 {
-    if (file_has_extension(path, "tsv"))
-        return save_table(table, path, err);
-    char *beside = strdup(path);
-    if (!beside)
+    char *name = table_name(path);
+    if (!name)
         return error_no_memory(err, path);
-    memcpy(beside + strlen(beside) - 3, "tsv", 3);
-    enum status status = save_table(table, beside, err);
-    free(beside);
-    return status == STATUS_OK ? draw(table, sculpture, path, err) : status;
+    enum status status = save_table(table, name, err);
+    free(name);
+    return status == STATUS_OK && plot_is_file_name(path) ? draw(table, sculpture, path, err) : status;
 }

@@ -27,4 +27,9 @@ one_message
 stdout_has '^relax'
 only_files cube.oct cost.tsv
 
+# A folder that cannot be written to is told of before the long work: no table is printed.
+refused 1 'no/such/cost\.tsv: cannot create' balloon-surface cube.oct --accuracy-cost no/such/cost.tsv
+refused 1 '/proc/cost\.tsv: cannot create' balloon-surface cube.oct --accuracy-cost /proc/cost.png
+only_files cube.oct cost.tsv
+
 refused 2 'must end in \.tsv, \.png or \.svg' balloon-surface cube.oct --accuracy-cost cost.pdf

@@ -8,6 +8,9 @@ refused 1 'cube size of 4e-05 is too small: about .* triangles in .* GB of memor
 refused 1 'cube\.oct: not enough memory' sh -c 'ulimit -v 400000; balloon-surface cube.oct --cube-size 7e-5 --threads 1 --force -o a.ply'
 refused 1 'a cube size of .* is too small: about 2e\+09 triangles in ' balloon-surface cube.oct --triangles 2000000000 -o a.ply
 refused 1 '1e-05u: too small .*at least 0\.0025u' balloon-surface cube.oct --sigma 1e-5u -o a.ply
+# So wide that nothing reaches the threshold, and wider than is allowed.
+refused 1 'no point reaches the threshold 0\.5: the largest value .*lower the threshold or sigma' balloon-surface cube.oct --sigma 1000 -o a.ply
+refused 2 'sigma 1001: must be a number from 0\.01 to 1000' balloon-surface cube.oct --sigma 1001 -o a.ply
 for sigma in 0 -1 nan inf 1e300 '' u x 0.3x; do
     refused 2 "sigma $sigma?.*: must be a number" balloon-surface cube.oct --sigma "$sigma" -o a.ply
 done
