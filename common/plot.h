@@ -2,10 +2,11 @@
  * Plots, drawn by the program gnuplot, which reads a script on its standard input and writes the picture to
  * its standard output: no shell, no file in between.
  *
- *     const struct plot_series series[] = {{"rk4", PLOT_CURVE, errors, seconds, NULL, count}};
+ *     const struct plot_series series[] = {
+ *         {.name = "rk4", .style = PLOT_CURVE, .x = errors, .y = seconds, .count = count}};
  *     const struct plot_panel panels[] = {
- *         {"Price of accuracy", "RMS error", "seconds", true, true, series, 1}};
- *     const struct plot plot = {"fox.cfg", panels, 1, 1};
+ *         {.title = "Price of accuracy", .log_x = true, .log_y = true, .series = series, .series_count = 1}};
+ *     const struct plot plot = {.title = "fox.cfg", .panels = panels, .panel_count = 1, .columns = 1};
  *     if (plot_check("cost.png", err)) ...            before the long work: no gnuplot, no plot
  *     if (plot_save(&plot, "cost.png", err)) ...
  *
@@ -21,11 +22,15 @@
 #include <stddef.h>
 
 enum plot_style {
-    PLOT_LINE,   /* for many points */
-    PLOT_CURVE,  /* a line with a mark at each point, for few */
-    PLOT_POINTS, /* marks only */
-    PLOT_BARS,   /* a bar a point, standing on 0 (on a logarithmic axis: on its lower end); x is not read */
+    PLOT_LINE,     /* for many points */
+    PLOT_CURVE,    /* a line with a mark at each point, for few */
+    PLOT_POINTS,   /* marks only */
+    PLOT_UNDERLAY, /* a broad pale line below all others, which marks some of them */
+    PLOT_BARS,     /* a bar a point, standing on 0 (on a logarithmic axis: on its lower end); x is not read */
 };
+
+enum { PLOT_COLOURS = 6, PLOT_BLACK }; /* colours count from 1 */
+enum { PLOT_MARKS = 5, PLOT_RING };    /* so do marks */
 
 /* All is borrowed. Text is UTF-8 and drawn as it is. */
 struct plot_series {
@@ -34,6 +39,7 @@ struct plot_series {
     const double *x, *y;      /* [count] */
     const char *const *label; /* [count] beside each point, or below each bar; NULL: none */
     size_t count;
+    int colour, mark; /* 0: by its place among the series */
 };
 
 struct plot_panel {
@@ -41,12 +47,14 @@ struct plot_panel {
     bool log_x, log_y;
     const struct plot_series *series; /* [series_count]; bars and others do not mix in a panel */
     size_t series_count;
+    bool key_outside; /* right of the axes: for many series */
 };
 
 struct plot {
     const char *title;               /* above all panels; NULL: none */
     const struct plot_panel *panels; /* [panel_count] row by row */
     size_t panel_count, columns;     /* columns at least 1 */
+    size_t width, height;            /* of a panel, in pixels; 0: 620 and 470 */
 };
 
 /* True when the name ends in .png or .svg, upper or lower case. */

@@ -7,8 +7,8 @@ enum { PANEL_WIDTH = 620, PANEL_HEIGHT = 470, TITLE_HEIGHT = 40 };
 
 /* Colours that stay apart for colour-blind eyes (Okabe and Ito, "Color universal design", 2008; its black is
  * left to the axes and its yellow, too pale for lines, is left out). */
-static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
-enum { COLOURS = sizeof colours / sizeof *colours };
+static const char *const colours[PLOT_BLACK] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                                "#e69f00", "#56b4e9", "#202020"};
 
 /* A text between quotes, in which gnuplot reads nothing but a doubled quote; line ends become spaces. */
 static void put_text(FILE *script, const char *text)
@@ -95,7 +95,10 @@ static void put_axes(FILE *script, const struct plot_panel *panel)
     bool named = false;
     for (size_t i = 0; i < panel->series_count; i++)
         named = named || panel->series[i].name;
-    fputs(named ? "set key on\n" : "set key off\n", script);
+    fputs(!named               ? "set key off\n"
+          : panel->key_outside ? "set key on outside right top nobox\n"
+                               : "set key on inside right top box lc rgb '#d0d0d0' width 1\n",
+          script);
     if (has_bars(panel))
         fprintf(script, "set style fill solid 0.85 noborder\nset boxwidth %g absolute\n", bar_width(panel));
     fputs(has_bars(panel) ? "set xtics rotate by -35 nomirror noenhanced\n"
@@ -106,8 +109,11 @@ static void put_axes(FILE *script, const struct plot_panel *panel)
 static void put_series(FILE *script, const struct plot_panel *panel, size_t index)
 {
     const struct plot_series *s = &panel->series[index];
-    const char *colour = colours[index % COLOURS];
-    const int mark = 5 + 2 * (int)(index % 5); /* filled square, disc, triangle, ... */
+    const char *colour = colours[s->colour ? (size_t)s->colour - 1 : index % PLOT_COLOURS];
+    const int number = s->mark ? s->mark - 1 : (int)index;
+    const int mark = s->mark == PLOT_RING
+                         ? 6
+                         : 5 + 2 * (number % PLOT_MARKS); /* a ring; filled square, disc, triangle, ... */
     fprintf(script, "$series%zu ", index);
     if (s->style == PLOT_BARS)
         fprintf(script, "using ($0 + %g):2%s with boxes lc rgb '%s' ",
@@ -115,9 +121,12 @@ static void put_series(FILE *script, const struct plot_panel *panel, size_t inde
                 s->label ? ":xtic(3)" : "", colour);
     else if (s->style == PLOT_LINE)
         fprintf(script, "using 1:2 with lines lw 2 lc rgb '%s' ", colour);
+    else if (s->style == PLOT_UNDERLAY)
+        fputs("using 1:2 with lines lw 14 lc rgb '#e4e0d0' ", script);
     else
-        fprintf(script, "using 1:2 with %s lw 2 pt %d ps 0.9 lc rgb '%s' ",
-                s->style == PLOT_CURVE ? "linespoints" : "points", mark, colour);
+        fprintf(script, "using 1:2 with %s lw 2 pt %d ps %g lc rgb '%s' ",
+                s->style == PLOT_CURVE ? "linespoints" : "points", mark, s->mark == PLOT_RING ? 1.8 : 0.9,
+                colour);
     fputs("title ", script);
     put_text(script, s->name);
     fputs(s->name ? " noenhanced" : "", script);
@@ -148,9 +157,11 @@ static void put_panel(FILE *script, const struct plot_panel *panel)
 void plot_write_script(const struct plot *plot, bool svg, FILE *script)
 {
     size_t rows = (plot->panel_count + plot->columns - 1) / plot->columns;
+    const size_t width = plot->width ? plot->width : PANEL_WIDTH,
+                 height = plot->height ? plot->height : PANEL_HEIGHT;
     fprintf(script, "set encoding utf8\nset terminal %s size %zu,%zu font 'DejaVu Sans,11' %s\n",
-            svg ? "svg" : "pngcairo", plot->columns * PANEL_WIDTH,
-            rows * PANEL_HEIGHT + (plot->title ? TITLE_HEIGHT : 0), svg ? "background 'white'" : "");
+            svg ? "svg" : "pngcairo", plot->columns * width, rows * height + (plot->title ? TITLE_HEIGHT : 0),
+            svg ? "background 'white'" : "");
     fputs("set border 3 lc rgb '#404040'\nset tics nomirror out tc rgb '#404040'\n"
           "set grid xtics ytics lc rgb '#e0e0e0' lw 1 lt 1\nset datafile missing 'NaN'\n"
           "set key top right samplen 2 spacing 1.2 opaque box lc rgb '#d0d0d0' width 1\n",

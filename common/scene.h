@@ -37,6 +37,7 @@ struct scene_view {
     int stereo;            /* index into scene_stereo_names */
     int style, order;      /* indices into scene_style_names, scene_order_names */
     int samples;           /* along a pixel's side */
+    int squeezed;          /* index into scene_squeezed_names: 0 no, 1 yes */
     double eye_distance;   /* over the distance from eye to target */
     double rate, playback; /* frames a simulated second; frames a second in the movie */
 };
@@ -200,6 +201,7 @@ extern const char *const scene_guard_names[];
 extern const char *const scene_pressure_on_names[];
 extern const char *const scene_process_names[];
 extern const char *const scene_stereo_names[];
+extern const char *const scene_squeezed_names[];
 extern const char *const scene_style_names[];
 extern const char *const scene_order_names[];
 extern const char *const scene_shape_names[];
@@ -212,7 +214,16 @@ enum scene_process { SCENE_ISOTHERMAL, SCENE_ADIABATIC };
 enum scene_style { SCENE_LATEX, SCENE_PAPER };
 enum scene_order { SCENE_ORDER_NONE, SCENE_ORDER_SORT, SCENE_ORDER_PEEL, SCENE_ORDER_LIST };
 enum scene_law { SCENE_NEO_HOOKEAN, SCENE_MOONEY_RIVLIN, SCENE_GENT, SCENE_OGDEN };
-enum scene_stereo { SCENE_MONO, SCENE_PARALLEL, SCENE_CROSSED };
+enum scene_stereo {
+    SCENE_MONO,
+    SCENE_PARALLEL,
+    SCENE_CROSSED,
+    SCENE_OVER_UNDER,
+    SCENE_RED_CYAN,
+    SCENE_INTERLACED,
+    SCENE_LEFT,
+    SCENE_RIGHT
+};
 
 /* Reads a scene file. *scene must be empty ({0}) and is so again after a failure. Errors: STATUS_FILE, STATUS_INPUT with
  * FILE:LINE, the key, and what would be right. */

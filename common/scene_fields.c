@@ -21,7 +21,9 @@ const char *const scene_integrator_names[] = {"symplectic-euler",
 const char *const scene_guard_names[] = {"substep", "refuse", "off", NULL};
 const char *const scene_pressure_on_names[] = {"points", "areas", NULL};
 const char *const scene_process_names[] = {"isothermal", "adiabatic", NULL};
-const char *const scene_stereo_names[] = {"mono", "parallel", "crossed", NULL};
+const char *const scene_stereo_names[] = {"mono",       "parallel", "crossed", "over-under", "red-cyan",
+                                          "interlaced", "left",     "right",   NULL};
+const char *const scene_squeezed_names[] = {"no", "yes", NULL};
 const char *const scene_shape_names[] = {"sphere", "box", NULL};
 const char *const scene_style_names[] = {"latex", "paper", NULL};
 const char *const scene_order_names[] = {"none", "sort", "peel", "list", NULL};

@@ -29,7 +29,10 @@
     X(target, VECTOR, -1e3, 1e3, "[0.0, 0.0, 0.0]", "radii", FREE,                                           \
       "what the eye looks at, from the balloons' centre", "")                                                \
     X(field_of_view, NUMBER, 1, 150, "30", "degrees", FREE, "vertical angle of the picture", "")             \
-    X(stereo, CHOICE, 0, 0, "\"parallel\"", "", FREE, "one eye, or two side by side", "paper 3.7")           \
+    X(stereo, CHOICE, 0, 0, "\"parallel\"", "", FREE,                                                        \
+      "one eye, both in halves or on one another, or one of the two alone", "paper 3.7")                     \
+    X(squeezed, CHOICE, 0, 0, "\"no\"", "", FREE,                                                            \
+      "halves hold the whole's proportions, for screens that stretch them", "")                              \
     X(eye_distance, NUMBER, 0, 1, "0.05", "", FREE, "between the eyes, over the distance to the target", "") \
     X(style, CHOICE, 0, 0, "\"latex\"", "", FREE, "rubber by its stretch, or the plain skin of the paper",   \
       "paper 3.3")                                                                                           \

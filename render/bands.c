@@ -1,6 +1,8 @@
 /* A picture is drawn eye by eye into the target, and a large one in bands. */
 #include "render/parts.h"
 
+#include <string.h>
+
 /* A target holds at most this many pixels; larger pictures are drawn in bands, so that they need little more
  * memory than themselves. */
 enum { BAND_PIXELS = 1 << 22 };
@@ -34,8 +36,10 @@ bool render_in_light(const struct render_view *view)
 enum status render_ready(struct render *render, const struct render_view *view, struct error *err)
 {
     enum status status = STATUS_OK;
-    if (!render_in_light(view))
-        return STATUS_OK;
+    if (stereo_is_mixed(view->stereo) && !render->stereo.program)
+        status = stereo_open(&render->stereo, &render->gl, err);
+    if (status || !render_in_light(view))
+        return status;
     if (!render->light.tone)
         status = light_open(&render->light, &render->gl, err);
     if (!status)
@@ -52,19 +56,39 @@ static int limited(int value, int least, int most)
     return value < least ? least : value > most ? most : value;
 }
 
+/* What the target holds of an eye's picture. */
+static void eye_rectangle(const struct band *band, int rectangle[4])
+{
+    const struct camera_eye *eye = band->eye;
+    const int rows = band->render->target.height;
+    int bottom = limited(eye->bottom - band->below, 0, rows);
+    int top = limited(eye->bottom + eye->height - band->below, 0, rows);
+    const int result[4] = {eye->left, bottom, eye->width, top - bottom};
+    memcpy(rectangle, result, sizeof result);
+}
+
+static void scissor_eye(const struct band *band)
+{
+    int at[4];
+    eye_rectangle(band, at);
+    band->render->gl.Scissor(at[0], at[1], at[2], at[3]);
+}
+
 /* The box of the target that anything but the backdrop may meet. */
 static void find_box(const struct band *band, int box[4])
 {
     const struct geometry *g = &band->render->geometry;
     const struct camera_eye *eye = band->eye;
     int margin = (int)band->render->overlay.widest + 1;
-    camera_pixels(band->view, eye, g->low, g->high, g->nearest, g->farthest, box);
+    camera_pixels(eye, g->low, g->high, g->nearest, g->farthest, box);
     if (!box[2] || !box[3])
         return;
     int left = limited(box[0] - margin, eye->left, eye->left + eye->width);
     int right = limited(box[0] + box[2] + margin, eye->left, eye->left + eye->width);
-    int bottom = limited(box[1] - margin - band->below, 0, band->render->target.height);
-    int top = limited(box[1] + box[3] + margin - band->below, 0, band->render->target.height);
+    int rows[4];
+    eye_rectangle(band, rows);
+    int bottom = limited(box[1] - margin - band->below, rows[1], rows[1] + rows[3]);
+    int top = limited(box[1] + box[3] + margin - band->below, rows[1], rows[1] + rows[3]);
     const int result[4] = {left, bottom, right - left, top - bottom};
     for (int i = 0; i < 4; i++)
         box[i] = result[i];
@@ -73,8 +97,8 @@ static void find_box(const struct band *band, int box[4])
 static void draw_behind_all(const struct band *band)
 {
     struct render *render = band->render;
-    const struct draw_place place = {{band->eye->left, -band->below, band->eye->width, band->view->height},
-                                     1};
+    const struct draw_place place = {
+        {band->eye->left, band->eye->bottom - band->below, band->eye->width, band->eye->height}, 1};
     draw_behind(&render->draw, &render->gl, &place, band->eye, &render->geometry);
 }
 
@@ -87,7 +111,7 @@ static void draw_all(const struct band *band)
     if (band->scene->solid)
         solid_draw_eye(&render->solid, gl, band->view, band->eye, &render->geometry, band->scene);
     draw_eye(&render->draw, gl, band->eye, &render->geometry);
-    overlay_draw_lines(&render->overlay, gl, band->view, band->eye, &render->geometry);
+    overlay_draw_lines(&render->overlay, gl, band->eye, &render->geometry);
 }
 
 /* Smooth edges are costly: only the part of the picture that anything may meet is drawn with more than one
@@ -104,7 +128,7 @@ static void draw_smoothly(const struct band *band)
         target_bind_drawn(&render->target, gl);
         gl->Scissor(box[0], box[1], box[2], box[3]);
         draw_all(band);
-        gl->Scissor(band->eye->left, 0, band->eye->width, render->target.height);
+        scissor_eye(band);
         target_resolve(&render->target, gl, box);
         target_bind_resolved(&render->target, gl);
     }
@@ -131,8 +155,9 @@ static enum status draw_strip(struct band *band, const int strip[4], struct erro
                                     err);
     if (status)
         return status;
-    const struct draw_place place = {{(band->eye->left - strip[0]) * side, -(band->below + strip[1]) * side,
-                                      band->eye->width * side, view->height * side},
+    const struct draw_place place = {{(band->eye->left - strip[0]) * side,
+                                      (band->eye->bottom - band->below - strip[1]) * side,
+                                      band->eye->width * side, band->eye->height * side},
                                      latex ? 1 / exposure : 1};
     gl->Scissor(0, 0, strip[2] * side, strip[3] * side);
     draw_behind(&render->draw, gl, &place, band->eye, &render->geometry);
@@ -140,7 +165,7 @@ static enum status draw_strip(struct band *band, const int strip[4], struct erro
         solid_draw_eye(&render->solid, gl, view, band->eye, &render->geometry, band->scene);
     draw_opaque(&render->draw, gl, view->style, band->eye, &render->geometry);
     light_layers(&render->light, gl, view->order, draw_layers, band);
-    overlay_draw_lines(&render->overlay, gl, view, band->eye, &render->geometry);
+    overlay_draw_lines(&render->overlay, gl, band->eye, &render->geometry);
     light_finish(&render->light, gl);
     target_bind_drawn(&render->target, gl);
     gl->Viewport(0, 0, render->target.width, render->target.height);
@@ -163,7 +188,8 @@ static enum status draw_in_light(struct band *band, struct error *err)
         const int strip[4] = {box[0], box[1] + y, box[2], limited(box[3] - y, 1, rows)};
         status = draw_strip(band, strip, err);
     }
-    band->render->gl.Viewport(band->eye->left, -band->below, band->eye->width, band->view->height);
+    band->render->gl.Viewport(band->eye->left, band->eye->bottom - band->below, band->eye->width,
+                              band->eye->height);
     return status;
 }
 
@@ -173,15 +199,15 @@ static enum status draw_one_eye(struct band *band, struct error *err)
     const struct gl *gl = &render->gl;
     enum status status = STATUS_OK;
     gl->Enable(GL_SCISSOR_TEST);
-    gl->Scissor(band->eye->left, 0, band->eye->width, render->target.height);
+    scissor_eye(band);
     if (render_in_light(band->view))
         status = draw_in_light(band, err);
     else if (band->view->smooth_edges)
         draw_smoothly(band);
     else
         draw_all(band);
-    gl->Scissor(band->eye->left, 0, band->eye->width, render->target.height);
-    overlay_draw_text(&render->overlay, gl, band->view, band->eye);
+    scissor_eye(band);
+    overlay_draw_text(&render->overlay, gl, band->eye);
     gl->Disable(GL_SCISSOR_TEST);
     return status;
 }
@@ -194,11 +220,16 @@ enum status render_bands(struct render *render, const struct render_view *view,
     enum status status = STATUS_OK;
     for (int below = 0; below < view->height && !status; below += rows) {
         int left = view->height - below;
-        target_bind_drawn(&render->target, &render->gl);
-        for (int i = 0; i < count && !status; i++)
+        for (int i = 0; i < count && !status; i++) {
+            target_bind_drawn(&render->target, &render->gl);
             status = draw_one_eye(&(struct band){render, view, scene, &eyes[i], below}, err);
+            if (!status && stereo_is_mixed(view->stereo))
+                stereo_keep(&render->stereo, &render->gl, &render->target, i);
+        }
         if (status)
             break;
+        if (stereo_is_mixed(view->stereo))
+            stereo_mix(&render->stereo, &render->gl, &render->target, view, below);
         if (out)
             status = target_read(&render->target, &render->gl, out, below, left < rows ? left : rows, err);
         else

@@ -38,9 +38,10 @@ static enum status check_size(const struct render_view *view, struct error *err)
     if (view->width < 1 || view->height < 1 || view->width > IMAGE_SIDE_MAX || view->height > IMAGE_SIDE_MAX)
         return error_set(err, STATUS_RANGE, "a picture of %d x %d cannot be drawn; each side must be 1 to %d",
                          view->width, view->height, IMAGE_SIDE_MAX);
-    if (view->stereo != RENDER_MONO && view->width % 2)
-        return error_set(err, STATUS_RANGE,
-                         "a stereo picture %d wide cannot be halved; its width must be even", view->width);
+    const bool beside = view->stereo == RENDER_PARALLEL || view->stereo == RENDER_CROSSED;
+    if ((beside && view->width % 2) || (view->stereo == RENDER_OVER_UNDER && view->height % 2))
+        return error_set(err, STATUS_RANGE, "a stereo picture %d %s cannot be halved; that must be even",
+                         beside ? view->width : view->height, beside ? "wide" : "high");
     return STATUS_OK;
 }
 
@@ -97,21 +98,55 @@ void camera_to_space(const struct camera_space *space, const double point[3], do
         out[i] *= space->scale;
 }
 
+static bool is_half(enum render_stereo stereo)
+{
+    return stereo == RENDER_PARALLEL || stereo == RENDER_CROSSED || stereo == RENDER_OVER_UNDER;
+}
+
+/* The whole picture in which an eye's lies: halves are so many columns and rows. */
+static void count_parts(const struct render_view *view, int parts[2])
+{
+    const bool half = is_half(view->stereo), rows = view->stereo == RENDER_OVER_UNDER;
+    parts[0] = half && !rows ? 2 : 1;
+    parts[1] = half && rows ? 2 : 1;
+}
+
+double camera_aspect(const struct render_view *view)
+{
+    int parts[2];
+    count_parts(view, parts);
+    if (view->squeezed)
+        return (double)view->width / view->height;
+    return (double)(view->width / parts[0]) / (view->height / parts[1]);
+}
+
+/* -0.5 for the left eye, 0.5 for the right one, 0 between them. */
+static double side_of(enum render_stereo stereo, int number)
+{
+    if (stereo == RENDER_MONO)
+        return 0;
+    bool right = stereo == RENDER_CROSSED ? number == 0 : stereo == RENDER_RIGHT || number == 1;
+    return right ? 0.5 : -0.5;
+}
+
 int camera_eyes(const struct render_view *view, struct camera_eye eyes[2])
 {
     const struct render_camera *camera = &view->camera;
-    int count = view->stereo == RENDER_MONO ? 1 : 2;
-    int width = view->width / count;
+    const bool alone = view->stereo == RENDER_MONO || view->stereo >= RENDER_LEFT;
+    int count = alone ? 1 : 2, parts[2];
     double half_height = tan(radians(camera->field_of_view_deg) / 2);
+    count_parts(view, parts);
+    int width = view->width / parts[0], height = view->height / parts[1];
     for (int i = 0; i < count; i++) {
-        bool is_right_eye = (i == 1) == (view->stereo == RENDER_PARALLEL);
-        double side = count == 1 ? 0 : is_right_eye ? 0.5 : -0.5;
+        double side = side_of(view->stereo, i);
         eyes[i] = (struct camera_eye){
-            .left = i * width,
+            .left = parts[0] == 2 ? i * width : 0,
             .width = width,
+            .bottom = parts[1] == 2 ? view->height - (i + 1) * height : 0,
+            .height = height,
             .offset = side * camera->eye_distance / vec3_distance(camera->eye, camera->target),
-            .half_width = {half_height * width / view->height, half_height},
-            .shear = count == 1 ? 0 : -side * camera->eye_distance / camera->screen_distance,
+            .half_width = {half_height * camera_aspect(view), half_height},
+            .shear = side == 0 ? 0 : -side * camera->eye_distance / camera->screen_distance,
         };
     }
     return count;
@@ -140,10 +175,10 @@ static int pixel(double at, int size)
     return !(at > 0) ? 0 : at < size ? (int)at : size;
 }
 
-void camera_pixels(const struct render_view *view, const struct camera_eye *eye, const double low[2],
-                   const double high[2], double nearest, double farthest, int box[4])
+void camera_pixels(const struct camera_eye *eye, const double low[2], const double high[2], double nearest,
+                   double farthest, int box[4])
 {
-    const int size[2] = {eye->width, view->height};
+    const int size[2] = {eye->width, eye->height};
     const double shift[2] = {eye->shear, 0}, offset[2] = {eye->offset, 0};
     for (int i = 0; i < 2; i++) {
         double near_shift = offset[i] / nearest, far_shift = offset[i] / farthest;
@@ -155,6 +190,7 @@ void camera_pixels(const struct render_view *view, const struct camera_eye *eye,
         box[2 + i] = last > first ? last - first : 0;
     }
     box[0] += eye->left;
+    box[1] += eye->bottom;
 }
 
 /* The distance from the box's middle at which its corners are within the tangents `half`. Seen from an eye at
@@ -198,10 +234,10 @@ enum status render_fit_camera(struct render_view *view, const double lower[3], c
     if (!find_axes(direction, up, axis))
         return error_set(err, STATUS_RANGE, "the direction to look from has no length");
 
-    int pictures = view->stereo == RENDER_MONO ? 1 : 2;
     double half_height = tan(radians(field_of_view_deg) / 2) * (1 - margin);
-    const double half[2] = {half_height * view->width / pictures / view->height, half_height};
-    double distance = fitting_distance(axis, half_size, half, pictures == 2 ? eye_ratio / 2 : 0);
+    const double half[2] = {half_height * camera_aspect(view), half_height};
+    double distance = fitting_distance(axis, half_size, half,
+                                       view->stereo == RENDER_MONO ? 0 : eye_ratio / 2);
     if (!(distance > 0))
         distance = 1; /* a single point is seen from anywhere */
     struct render_camera camera = {

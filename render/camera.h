@@ -14,12 +14,12 @@ struct camera_space {
     double scale;      /* 1 / distance from eye to target */
 };
 
-/* One eye's picture: its columns in the whole one, and how it sees camera space. */
+/* One eye's picture: its columns and rows in the whole one, and how it sees camera space. */
 struct camera_eye {
-    int left, width;
-    double offset;        /* of the eye along x */
-    double half_width[2]; /* tangents: the window's half width and height at distance 1 */
-    double shear;         /* x of the window's middle at distance 1, seen from this eye */
+    int left, width, bottom, height; /* bottom from below */
+    double offset;                   /* of the eye along x */
+    double half_width[2];            /* tangents: the window's half width and height at distance 1 */
+    double shear;                    /* x of the window's middle at distance 1, seen from this eye */
 };
 
 /* Refuses (STATUS_RANGE) sizes and cameras that make no picture; says what is wrong. */
@@ -30,13 +30,17 @@ void camera_space_of(const struct render_camera *camera, struct camera_space *sp
 void camera_to_space(const struct camera_space *space, const double point[3], double out[3]);
 void camera_turn(const struct camera_space *space, const double direction[3], double out[3]);
 
-/* Fills eyes[0 .. n) and returns n: 1, or in stereo 2, the one whose picture is on the left first. */
+/* Fills eyes[0 .. n) and returns n: 1, or in stereo 2, the one whose picture is on the left or above first, or the left
+ * eye. */
 int camera_eyes(const struct render_view *view, struct camera_eye eyes[2]);
+
+/* Width over height of what one eye sees. */
+double camera_aspect(const struct render_view *view);
 
 /* The part of the whole picture (x, y from below, width, height in pixels) that holds what this eye sees at
  * distances nearest .. farthest between low and high: x and y at distance 1 as seen from the origin. */
-void camera_pixels(const struct render_view *view, const struct camera_eye *eye, const double low[2],
-                   const double high[2], double nearest, double farthest, int box[4]);
+void camera_pixels(const struct camera_eye *eye, const double low[2], const double high[2], double nearest,
+                   double farthest, int box[4]);
 
 /* The OpenGL projection (column-major) of camera space between the distances nearest < farthest. */
 void camera_projection(const struct camera_eye *eye, double nearest, double farthest, float matrix[16]);

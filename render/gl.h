@@ -27,6 +27,7 @@
     X(ClearBufferfv, CLEARBUFFERFV)                                   \
     X(ColorMask, COLORMASK)                                           \
     X(CompileShader, COMPILESHADER)                                   \
+    X(CopyTexImage2D, COPYTEXIMAGE2D)                                 \
     X(CreateProgram, CREATEPROGRAM)                                   \
     X(CreateShader, CREATESHADER)                                     \
     X(DeleteBuffers, DELETEBUFFERS)                                   \

@@ -70,9 +70,8 @@ void orbit_frame(struct orbit *orbit, const struct render_view *view, const doub
     double radius = vec3_distance(lower, upper) / 2;
     if (!(radius > 0) || !isfinite(radius))
         return;
-    int pictures = view->stereo == RENDER_MONO ? 1 : 2;
     double half = tan(radians(orbit->field_of_view_deg) / 2);
-    double narrower = fmin(1, (double)view->width / pictures / view->height);
+    double narrower = fmin(1, camera_aspect(view));
     for (int i = 0; i < 3; i++)
         orbit->target[i] = lower[i] / 2 + upper[i] / 2;
     orbit->distance = radius / sin(atan(half * narrower));
@@ -101,9 +100,11 @@ bool orbit_ray(const struct render_view *view, double x, double y, double origin
         return false;
     camera_space_of(&view->camera, &space);
     int count = camera_eyes(view, eyes);
-    const struct camera_eye *eye = &eyes[count == 2 && x >= eyes[1].left];
+    const struct camera_eye *eye =
+        &eyes[count == 2 && x >= eyes[1].left && y >= view->height - eyes[1].bottom - eyes[1].height];
+    int top = view->height - eye->bottom - eye->height;
     double across = (2 * (x - eye->left) / eye->width - 1) * eye->half_width[0] + eye->shear;
-    double up = (1 - 2 * y / view->height) * eye->half_width[1];
+    double up = (1 - 2 * (y - top) / eye->height) * eye->half_width[1];
     double length = sqrt(across * across + up * up + 1);
     for (int i = 0; i < 3; i++) {
         origin[i] = space.origin[i] + space.axis[0][i] * eye->offset / space.scale;

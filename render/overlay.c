@@ -226,8 +226,8 @@ static void blend(const struct gl *gl)
     gl->DepthMask(GL_FALSE);
 }
 
-void overlay_draw_lines(const struct overlay *overlay, const struct gl *gl, const struct render_view *view,
-                        const struct camera_eye *eye, const struct geometry *geometry)
+void overlay_draw_lines(const struct overlay *overlay, const struct gl *gl, const struct camera_eye *eye,
+                        const struct geometry *geometry)
 {
     float projection[16];
     const float at[3] = {(float)eye->offset, 0, 0};
@@ -239,7 +239,7 @@ void overlay_draw_lines(const struct overlay *overlay, const struct gl *gl, cons
     gl->UseProgram(overlay->line_program);
     gl->UniformMatrix4fv(overlay->line_projection, 1, GL_FALSE, projection);
     gl->Uniform3fv(overlay->line_eye, 1, at);
-    gl->Uniform2f(overlay->line_size, (float)eye->width, (float)view->height);
+    gl->Uniform2f(overlay->line_size, (float)eye->width, (float)eye->height);
     gl->BindVertexArray(overlay->line_array);
     gl->Enable(GL_DEPTH_TEST);
     if (hidden)
@@ -251,15 +251,14 @@ void overlay_draw_lines(const struct overlay *overlay, const struct gl *gl, cons
     gl->DepthMask(GL_TRUE);
 }
 
-void overlay_draw_text(const struct overlay *overlay, const struct gl *gl, const struct render_view *view,
-                       const struct camera_eye *eye)
+void overlay_draw_text(const struct overlay *overlay, const struct gl *gl, const struct camera_eye *eye)
 {
     if (!overlay->text.count)
         return;
     blend(gl);
     gl->Disable(GL_DEPTH_TEST);
     gl->UseProgram(overlay->text_program);
-    gl->Uniform2f(overlay->text_size, (float)eye->width, (float)view->height);
+    gl->Uniform2f(overlay->text_size, (float)eye->width, (float)eye->height);
     gl->BindVertexArray(overlay->text_array);
     gl->DrawElements(GL_TRIANGLES, (GLsizei)(overlay->text.count / 4 * 6), GL_UNSIGNED_INT, NULL);
     gl->DepthMask(GL_TRUE);

@@ -47,11 +47,10 @@ enum status overlay_upload(struct overlay *overlay, const struct gl *gl, struct 
                            struct error *err);
 
 /* Over what is drawn, with its depth. */
-void overlay_draw_lines(const struct overlay *overlay, const struct gl *gl, const struct render_view *view,
-                        const struct camera_eye *eye, const struct geometry *geometry);
+void overlay_draw_lines(const struct overlay *overlay, const struct gl *gl, const struct camera_eye *eye,
+                        const struct geometry *geometry);
 
 /* Over everything. The viewport is that of the eye's picture. */
-void overlay_draw_text(const struct overlay *overlay, const struct gl *gl, const struct render_view *view,
-                       const struct camera_eye *eye);
+void overlay_draw_text(const struct overlay *overlay, const struct gl *gl, const struct camera_eye *eye);
 
 #endif

@@ -8,6 +8,7 @@
 #include "render/overlay_draw.h"
 #include "render/program.h"
 #include "render/solid_draw.h"
+#include "render/stereo.h"
 #include "render/target.h"
 #include "render/window.h"
 
@@ -20,7 +21,8 @@ struct render {
     struct overlay overlay;
     struct quads quads;
     struct target target;
-    struct light light; /* open only once a picture wants it */
+    struct light light;   /* open only once a picture wants it */
+    struct stereo stereo; /* the same */
     struct geometry geometry;
     struct {
         double (*items)[3];
@@ -39,7 +41,7 @@ enum status render_bands(struct render *render, const struct render_view *view,
 /* True where the picture is made in linear light first: latex, exact order, several samples. */
 bool render_in_light(const struct render_view *view);
 
-/* Opens what that needs. */
+/* Opens what that and the stereo need. */
 enum status render_ready(struct render *render, const struct render_view *view, struct error *err);
 
 /* Makes the target as large as a band of such a picture and binds it. */

@@ -137,6 +137,7 @@ void render_close(struct render *render)
     if (render->gl.Viewport && !render_use(render, &ignored)) {
         target_clear(&render->target, &render->gl);
         light_close(&render->light, &render->gl);
+        stereo_close(&render->stereo, &render->gl);
         draw_close(&render->draw, &render->gl);
         solid_draw_close(&render->solid, &render->gl);
         overlay_close(&render->overlay, &render->gl);

@@ -34,11 +34,16 @@ struct render_camera {
     double screen_distance;   /* from the eyes to the plane where both pictures agree; in stereo above 0 */
 };
 
-/* Two pictures side by side, each half as wide as the whole. */
+/* One picture, or one for each eye: in two halves of the whole, on one another, or an eye's alone. */
 enum render_stereo {
     RENDER_MONO,
-    RENDER_PARALLEL, /* the left eye's on the left: for a viewer or mirror glasses, or parallel eyes */
-    RENDER_CROSSED,  /* the left eye's on the right: for crossed eyes */
+    RENDER_PARALLEL,   /* the left eye's on the left: for a viewer or mirror glasses, or parallel eyes */
+    RENDER_CROSSED,    /* the left eye's on the right: for crossed eyes */
+    RENDER_OVER_UNDER, /* the left eye's above */
+    RENDER_RED_CYAN,   /* for glasses with the red before the left eye */
+    RENDER_INTERLACED, /* rows in turn, the left eye's the first from above */
+    RENDER_LEFT,       /* what the left eye sees */
+    RENDER_RIGHT,
 };
 
 /* How skins look. */
@@ -61,6 +66,7 @@ struct render_view {
     int width, height; /* of the whole picture, 1 .. IMAGE_SIDE_MAX; the width even in stereo */
     struct render_camera camera;
     enum render_stereo stereo;
+    bool squeezed; /* halves hold pictures of the whole's proportions, for screens that stretch them again */
     enum render_style style;
     enum render_order order;
     int samples; /* each pixel is the mean of samples x samples; 0 or 1: one, at most RENDER_SAMPLES_MAX */

@@ -79,3 +79,20 @@ const char shader_list_fragment[] =
     "    light = vec4(added, 1.0);\n"
     "    passing = vec4(passes, 0.0);\n"
     "}\n";
+
+/* Dubois, "A projection method to generate anaglyph stereo images" (2001): the least-squares match of what each eye sees
+ * through red and cyan filters, in linear light; the matrices are of his page's usual glasses. */
+const char shader_stereo_fragment[] =
+    "#version 330 core\n"
+    "uniform sampler2D left_picture, right_picture;\n"
+    "uniform int first_row, red_cyan;\n"
+    "out vec4 light;\n"
+    "const mat3 from_left = mat3(0.4561, -0.0401, -0.0152, 0.5005, -0.0378, -0.0206, 0.1764, -0.0158, -0.0055);\n"
+    "const mat3 from_right = mat3(-0.0435, 0.3785, -0.0722, -0.0879, 0.7336, -0.1130, -0.0016, -0.0185, 1.2264);\n"
+    "void main()\n"
+    "{\n"
+    "    ivec2 at = ivec2(gl_FragCoord.xy);\n"
+    "    vec3 left = texelFetch(left_picture, at, 0).rgb, right = texelFetch(right_picture, at, 0).rgb;\n"
+    "    vec3 one = ((first_row - at.y) & 1) == 0 ? left : right;\n"
+    "    light = vec4(red_cyan == 1 ? clamp(from_left * left + from_right * right, 0.0, 1.0) : one, 1.0);\n"
+    "}\n";

@@ -35,6 +35,9 @@ struct auto_method {
         uint64_t candidate;        /* that was chosen, and in how many parts */
         double parts, error, work; /* as its trial had it */
         double stable;             /* s: by the guard's bound for the first candidate, when it was opened */
+        /* Work that each took in its last trial for the last choice, 0 where there was none: it will not take less than half of that
+         * in the next one, so that what was far too dear is not tried again. */
+        double spent[CANDIDATES];
     } memory;
 };
 
@@ -110,30 +113,45 @@ struct option {
 static struct option untried(int candidate, double parts)
 {
     const double evaluations = candidates[candidate]->evaluations;
-    const double least = evaluations > 0 ? evaluations
-                                         : 10; /* two equations with derivatives, at the least */
+    const double least = evaluations > 0 ? evaluations : TRIAL_IMPLICIT_LEAST;
     return (struct option){candidate, parts, {INFINITY, parts <= GUARD_PARTS_MAX ? least * parts : INFINITY}};
 }
 
-/* How many of the scene's steps a trial takes: two, or one where they are split in many parts. */
-static uint32_t trial_steps(double parts)
+/* How many of the scene's steps a trial takes: two, or one where they are split in many parts, and before the first step, since
+ * that choice does not last. */
+static uint32_t trial_steps(const struct sim *sim, double parts)
 {
-    return (uint32_t)fmax(fmin(2, 1000 / parts), 1);
+    return sim->steps == 0 ? 1 : (uint32_t)fmax(fmin(2, 1000 / parts), 1);
 }
 
 static void try_option(struct sim *sim, struct option *option)
 {
     const struct auto_method *m = sim->method;
     option->result = trial_run(sim, candidates[option->candidate], m->own[option->candidate],
-                               (uint32_t)option->parts, trial_steps(option->parts), TRIAL_ROWS);
+                               (uint32_t)option->parts, trial_steps(sim, option->parts), TRIAL_ROWS);
 }
 
-/* In how many more parts it would keep the tolerance, by its order. */
+/* In how many more parts it would keep the tolerance, by its order; of errors near the radius that says little. */
 static struct option split_further(const struct option *option, double tolerance, double most)
 {
-    const double missing = pow(option->result.error / tolerance, 1.0 / candidates[option->candidate]->order);
-    const double parts = ceil(option->parts * fmin(fmax(1.1 * missing, 1.25), 8));
+    const double error = option->result.error, farthest = error < 1e-2 ? INFINITY : 8;
+    const double missing = pow(error / tolerance, 1.0 / candidates[option->candidate]->order);
+    const double parts = ceil(option->parts * fmin(fmax(1.1 * missing, 1.25), farthest));
     return untried(option->candidate, parts <= most ? parts : INFINITY);
+}
+
+/* The one with the least work; of those that are within a tenth of it the one of the highest order, whose errors are less. */
+static struct option *find_cheapest(struct option *options)
+{
+    double least = INFINITY;
+    for (int i = 0; i < CANDIDATES; i++)
+        least = fmin(least, options[i].result.work);
+    struct option *cheapest = NULL;
+    for (int i = 0; i < CANDIDATES; i++)
+        if (options[i].result.work <= 1.1 * least &&
+            (!cheapest || candidates[i]->order > candidates[cheapest->candidate]->order))
+            cheapest = &options[i];
+    return cheapest;
 }
 
 /* Tries what promises to be cheapest until that keeps the tolerance; what cannot be cheaper than another that does is never
@@ -142,24 +160,25 @@ static struct option split_further(const struct option *option, double tolerance
 static struct option find_best(struct sim *sim)
 {
     enum { TRIALS_MAX = 30, PARTS_MORE = 64 };
-    const struct auto_method *m = sim->method;
+    struct auto_method *m = sim->method;
     const double tolerance = sim->scene->time.tolerance;
     struct option next[CANDIDATES], nearest = {.parts = 1, .result = {INFINITY, INFINITY}};
     double most[CANDIDATES];
     for (int i = 0; i < CANDIDATES; i++) {
         next[i] = untried(i, m->is_open[i] ? fewest_parts(sim, i) : INFINITY);
         most[i] = PARTS_MORE * next[i].parts;
+        if (sim->next_change == m->memory.change)
+            next[i].result.work = fmax(next[i].result.work, m->memory.spent[i] / 2);
+        m->memory.spent[i] = 0;
     }
     for (int trials = 0; trials < TRIALS_MAX; trials++) {
-        struct option *cheapest = &next[0];
-        for (int i = 1; i < CANDIDATES; i++)
-            if (next[i].result.work < cheapest->result.work)
-                cheapest = &next[i];
+        struct option *cheapest = find_cheapest(next);
         if (isinf(cheapest->result.work) || cheapest->result.error <= tolerance)
             return isinf(cheapest->result.work) ? nearest : *cheapest;
         try_option(sim, cheapest);
         if (cheapest->result.error < nearest.result.error)
             nearest = *cheapest;
+        m->memory.spent[cheapest->candidate] = cheapest->result.work;
         if (!(cheapest->result.error <= tolerance))
             *cheapest = split_further(cheapest, tolerance, most[cheapest->candidate]);
     }

@@ -10,6 +10,10 @@ const struct effect *const effects[] = {
     &effect_areas,
     &effect_gas,
     &effect_tube, /* after the gas of both balloons */
+    &effect_needles,
+    &effect_ground,
+    &effect_obstacles,
+    &effect_contact,
     NULL,
 };
 
@@ -82,6 +86,14 @@ void effects_run(struct sim *sim, enum effect_phase phase)
     for (size_t i = 0; phase == EFFECT_AFTER_STEP && i < sim->hook_count[EFFECT_FORCES]; i++)
         if (sim->hooks[EFFECT_FORCES][i].effect->after)
             sim->hooks[EFFECT_FORCES][i].effect->after(sim, sim->hooks[EFFECT_FORCES][i].balloon);
+}
+
+enum status effects_settle(struct sim *sim, struct error *err)
+{
+    enum status status = STATUS_OK;
+    for (size_t i = 0; i < sim->hook_count[EFFECT_MOVED] && !status; i++)
+        status = sim->hooks[EFFECT_MOVED][i].effect->settle(sim, err);
+    return status;
 }
 
 enum status effects_check(struct sim *sim, struct error *err)

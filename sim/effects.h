@@ -10,5 +10,9 @@ extern const struct effect effect_membrane;
 extern const struct effect effect_areas;
 extern const struct effect effect_gas;
 extern const struct effect effect_tube;
+extern const struct effect effect_needles;
+extern const struct effect effect_ground; /* effect_obstacles.c */
+extern const struct effect effect_obstacles;
+extern const struct effect effect_contact;
 
 #endif

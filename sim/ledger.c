@@ -86,13 +86,18 @@ static double kinetic(const struct sim *sim)
     return energy;
 }
 
-void ledger_begin(struct sim *sim)
+double ledger_energy(struct sim *sim)
 {
-    sim->ledger.account.begin = kinetic(sim) + ledger_elastic(sim, 0, sim->edge_count) + effects_energy(sim);
+    double energy = kinetic(sim) + ledger_elastic(sim, 0, sim->edge_count) + effects_energy(sim);
     for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
         if (b->membrane)
-            sim->ledger.account.begin += membrane_elastic(sim, b);
-    sim->ledger.account.fracture = sim->ledger.account.user = 0;
+            energy += membrane_elastic(sim, b);
+    return energy;
+}
+
+void ledger_begin(struct sim *sim)
+{
+    sim->ledger.account = (struct sim_account){.begin = ledger_energy(sim)};
     for (uint32_t i = 0; i < LEDGER_SCALARS; i++)
         sim->scalar[sim->ledger.first + i] = 0;
 }
@@ -116,7 +121,7 @@ struct ledger_balance ledger_balance(struct sim *sim, const struct sim_measures 
     if (!ledger->on)
         return b;
     b.gas = effects_energy(sim);
-    b.dissipated = sim->scalar[ledger->first + LEDGER_DISSIPATED];
+    b.dissipated = sim->scalar[ledger->first + LEDGER_DISSIPATED] + ledger->account.contact;
     b.fracture = ledger->account.fracture;
     b.pressure_work = sim->scalar[ledger->first + LEDGER_PRESSURE];
     b.user_work = ledger->account.user;

@@ -33,10 +33,13 @@ void ledger_rates(struct sim *sim);
 /* Energy of the active springs from edge begin to end: k_s (|l| - r)^2 / 2 each. */
 double ledger_elastic(const struct sim *sim, uint32_t begin, uint32_t end);
 
+/* What all points move with and what holds them: kinetic and elastic energy of the present state. */
+double ledger_energy(struct sim *sim);
+
 /* All in the unit of force x length. */
 struct ledger_balance {
     double gas;           /* held by gas, and by what else effects hold; 0 where the pressure is given */
-    double dissipated;    /* by dampers */
+    double dissipated;    /* by dampers, obstacles and contact */
     double fracture;      /* that springs held when they let go */
     double pressure_work; /* by the pressure on the points, and by what else effects bring */
     double user_work;     /* by changes of springs in the schedule */

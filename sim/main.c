@@ -1,6 +1,7 @@
 /* balloon-sim: inflates the balloons of a scene until they burst. */
 #include "common/command.h"
 #include "sim/guard.h"
+#include "sim/price.h"
 #include "sim/run.h"
 
 #include <signal.h>
@@ -29,25 +30,24 @@ static void note_repairs(const struct scene *scene, const struct mesh_report *re
     }
 }
 
-/* *estimate stays NULL unless it is asked for. */
-static enum status open_sim(struct sim *sim, struct estimate **estimate, const struct scene *scene,
-                            const struct options *options, struct error *err)
+/* *meshes becomes [balloon_count], also on failure; NULL when there is no memory. */
+static enum status load_meshes(const struct scene *scene, struct mesh **meshes, struct error *err)
 {
-    struct mesh *meshes = calloc(scene->balloon_count, sizeof *meshes);
     struct mesh_report *reports = calloc(scene->balloon_count, sizeof *reports);
-    enum status status = meshes && reports ? sim_load_meshes(scene, meshes, reports, err)
-                                           : error_no_memory(err, "the meshes");
-    if (!status) {
+    *meshes = calloc(scene->balloon_count, sizeof **meshes);
+    enum status status = *meshes && reports ? sim_load_meshes(scene, *meshes, reports, err)
+                                            : error_no_memory(err, "the meshes");
+    if (!status)
         note_repairs(scene, reports);
-        status = sim_open(sim, scene, meshes, options->threads, err);
-    }
-    if (!status && options->estimate && !options->check)
-        status = estimate_open(sim, meshes, options->threads, estimate, err);
+    free(reports);
+    return status;
+}
+
+static void free_meshes(const struct scene *scene, struct mesh *meshes)
+{
     for (size_t i = 0; meshes && i < scene->balloon_count; i++)
         mesh_clear(&meshes[i]);
     free(meshes);
-    free(reports);
-    return status;
 }
 
 static void print_check(struct sim *sim)
@@ -84,22 +84,41 @@ static void print_effects(const struct scene *scene)
     }
 }
 
-static enum status perform(const struct options *options, struct error *err)
+/* Checks or runs a scene, whose meshes are no longer needed once the sim is open, and are freed. */
+static enum status simulate(const struct options *options, const struct scene *scene, struct mesh **meshes,
+                            struct error *err)
 {
-    struct scene scene = {0};
     struct sim sim = {0};
     struct estimate *estimate = NULL;
-    enum status status = load_scene(options, &scene, err);
-    if (!status && !options->explain)
-        status = open_sim(&sim, &estimate, &scene, options, err);
-    if (!status && options->explain)
-        print_effects(&scene);
-    else if (!status && options->check)
+    enum status status = sim_open(&sim, scene, *meshes, options->threads, err);
+    if (!status && options->estimate && !options->check)
+        status = estimate_open(&sim, *meshes, options->threads, &estimate, err);
+    free_meshes(scene, *meshes);
+    *meshes = NULL;
+    if (!status && options->check)
         print_check(&sim);
     else if (!status)
         status = run(options, &sim, estimate, err);
     estimate_close(estimate);
     sim_clear(&sim);
+    return status;
+}
+
+static enum status perform(const struct options *options, struct error *err)
+{
+    struct scene scene = {0};
+    struct mesh *meshes = NULL;
+    enum status status = load_scene(options, &scene, err);
+    if (!status && options->explain) {
+        print_effects(&scene);
+    } else if (!status) {
+        status = load_meshes(&scene, &meshes, err);
+        if (!status && options->accuracy_cost && !options->check)
+            status = price_accuracy(&scene, meshes, options->accuracy_cost, err);
+        else if (!status)
+            status = simulate(options, &scene, &meshes, err);
+    }
+    free_meshes(&scene, meshes);
     scene_clear(&scene);
     return status;
 }

@@ -22,6 +22,7 @@ void sim_clear(struct sim *sim)
                       sim->position,
                       sim->velocity,
                       sim->force,
+                      sim->before,
                       sim->mass,
                       sim->edge_point,
                       sim->rest_length,
@@ -56,6 +57,13 @@ void *sim_table(struct sim *sim, size_t count, size_t size)
         memset(items, 0, bytes);
     sim->bytes += count * size;
     return items;
+}
+
+enum status sim_keep_before(struct sim *sim, struct error *err)
+{
+    if (!sim->before)
+        sim->before = sim_table(sim, sim->point_count, sizeof *sim->before);
+    return sim->before ? STATUS_OK : error_no_memory(err, "the places before a step");
 }
 
 /* *failed remembers that there was not enough. */

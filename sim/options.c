@@ -1,7 +1,9 @@
 #include "sim/options.h"
 #include "common/array.h"
 #include "common/command.h"
+#include "common/file.h"
 #include "common/mesh.h"
+#include "common/plot.h"
 #include "common/threads.h"
 
 #include <stdlib.h>
@@ -15,6 +17,7 @@ enum {
     OPTION_CHECKPOINT_EVERY,
     OPTION_RESUME,
     OPTION_ESTIMATE,
+    OPTION_ACCURACY_COST,
     OPTION_SET,
     OPTION_THREADS,
     OPTION_HASH,
@@ -30,6 +33,10 @@ static const struct argp_option option_table[] = {
     {"log", OPTION_LOG, "FILE.tsv", 0, "Write a row of measures a frame", 1},
     {"estimate", OPTION_ESTIMATE, 0, 0,
      "Measure the error beside the run, and say what halving it would cost", 1},
+    {"accuracy-cost", OPTION_ACCURACY_COST, "FILE", 0,
+     "Instead of a run: what each integrator's accuracy costs on this scene, as a table (.tsv) or a plot with the table "
+     "beside it (.png, .svg); takes about a minute",
+     1},
     {"checkpoint", OPTION_CHECKPOINT, "FILE", 0, "Keep the run in this file, now and then and at the end", 1},
     {"checkpoint-every", OPTION_CHECKPOINT_EVERY, "SECONDS", 0, "How often (default: 60)", 1},
     {"resume", OPTION_RESUME, "FILE", 0, "Go on with the run that is kept in this file", 1},
@@ -72,6 +79,11 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         break;
     case OPTION_ESTIMATE:
         o->estimate = true;
+        break;
+    case OPTION_ACCURACY_COST:
+        if (!file_has_extension(argument, "tsv") && !plot_is_file_name(argument))
+            argp_error(state, "--accuracy-cost %s: the name must end in .tsv, .png or .svg", argument);
+        o->accuracy_cost = argument;
         break;
     case 'o':
         if (!mesh_is_file_name(argument))

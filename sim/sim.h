@@ -28,6 +28,8 @@ struct guard;
 struct hand;
 struct guard_rows;
 struct gas;
+struct obstacles;
+struct contact;
 struct gas_rims;
 struct membrane;
 struct threads;
@@ -141,6 +143,7 @@ const struct integrator *integrator_find(const char *name);
 enum effect_phase {
     EFFECT_OPEN,       /* once, when the tables are complete */
     EFFECT_FORCES,     /* adds to sim->force and sim->scalar_rate at the current state */
+    EFFECT_MOVED,      /* once the points have moved, before anything breaks: corrects how they did */
     EFFECT_AFTER_STEP, /* at the end of each accepted step */
     EFFECT_PHASES,
 };
@@ -158,6 +161,8 @@ struct effect {
     enum status (*open)(struct sim *sim, struct sim_balloon *balloon, struct error *err);
     void (*close)(struct sim *sim, struct sim_balloon *balloon);
     void (*apply)(struct sim *sim, struct sim_balloon *balloon); /* NULL: nothing that a kernel does not do */
+    /* EFFECT_MOVED: corrects sim->position and velocity after a step from sim->before; says so by sim->changed. */
+    enum status (*settle)(struct sim *sim, struct error *err);
     /* EFFECT_FORCES: at the end of each accepted step too. NULL: nothing. */
     void (*after)(struct sim *sim, struct sim_balloon *balloon);
     /* What it remembers from step to step beyond sim->scalar, as blocks; returns how many. NULL: nothing. */
@@ -194,6 +199,7 @@ struct sim_ledger {
         double begin;    /* kinetic and elastic energy when the accounts were opened */
         double fracture; /* what springs held when they let go */
         double user;     /* what changes of springs added */
+        double contact;  /* what obstacles and contact took */
     } account;
 };
 
@@ -285,7 +291,11 @@ struct sim {
     double taken;         /* s: how far the last advance() moved; it comes in as the longest that it may be */
     struct sim_past past; /* for sim_look() */
     struct guard *guard;
-    struct hand *hand; /* that pulls at it (live_hand.h); NULL: none */
+    double (*before)
+        [4]; /* [point_count] places when the step began; NULL: nothing that the scene calls for asks for them */
+    struct obstacles *obstacles; /* what stands in the way (obstacles.h); NULL: nothing */
+    struct contact *contact;     /* what keeps skins apart (contact.h); NULL: nothing */
+    struct hand *hand;           /* that pulls at it (live_hand.h); NULL: none */
     uint64_t
         evaluations;   /* of sim_forces() since sim_open(), also of those for a look; nothing depends on it */
     uint64_t products; /* of sim_force_product(), likewise */
@@ -327,6 +337,9 @@ enum status sim_add_scalars(struct sim *sim, uint32_t count, uint32_t *first, st
 
 /* Zeroed memory on a line of the cache, free()d by whoever asked, which adds to sim->bytes. NULL: there is not enough. */
 void *sim_table(struct sim *sim, size_t count, size_t size);
+
+/* Makes sim->before, if there is none: for an effect's open. Error: STATUS_NO_MEMORY. */
+enum status sim_keep_before(struct sim *sim, struct error *err);
 
 /* Runs function on every part, each on its worker, and returns when all are done. */
 void sim_each_part(struct sim *sim,
@@ -417,6 +430,7 @@ void look_remember(struct sim *sim);
 enum status effects_resolve(struct sim *sim, struct error *err);
 void effects_close(struct sim *sim);
 void effects_run(struct sim *sim, enum effect_phase phase);
+enum status effects_settle(struct sim *sim, struct error *err); /* EFFECT_MOVED */
 
 /* Tells it to whoever reads the news; text is static. */
 void sim_tell(struct sim *sim, const struct sim_balloon *balloon, const char *effect, const char *text);

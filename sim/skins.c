@@ -104,7 +104,11 @@ void skins_update(struct skins *skins)
 void skins_view(const struct scene_view *scene, struct render_view *view)
 {
     static const enum render_stereo stereo[] = {
-        [SCENE_MONO] = RENDER_MONO, [SCENE_PARALLEL] = RENDER_PARALLEL, [SCENE_CROSSED] = RENDER_CROSSED};
+        [SCENE_MONO] = RENDER_MONO,         [SCENE_PARALLEL] = RENDER_PARALLEL,
+        [SCENE_CROSSED] = RENDER_CROSSED,   [SCENE_OVER_UNDER] = RENDER_OVER_UNDER,
+        [SCENE_RED_CYAN] = RENDER_RED_CYAN, [SCENE_INTERLACED] = RENDER_INTERLACED,
+        [SCENE_LEFT] = RENDER_LEFT,         [SCENE_RIGHT] = RENDER_RIGHT,
+    };
     static const enum render_order orders[] = {[SCENE_ORDER_NONE] = RENDER_NONE,
                                                [SCENE_ORDER_SORT] = RENDER_SORT,
                                                [SCENE_ORDER_PEEL] = RENDER_PEEL,
@@ -112,6 +116,7 @@ void skins_view(const struct scene_view *scene, struct render_view *view)
     view->width = scene->size[0];
     view->height = scene->size[1];
     view->stereo = stereo[scene->stereo];
+    view->squeezed = scene->squeezed == 1;
     view->style = scene->style == SCENE_LATEX ? RENDER_LATEX : RENDER_PAPER;
     view->order = orders[scene->order];
     view->samples = scene->samples;

@@ -6,6 +6,7 @@
 #include "sim/kernels.h"
 #include "sim/ledger.h"
 #include "sim/membrane_kernels.h"
+#include "sim/vectors.h"
 
 #include <math.h>
 
@@ -152,8 +153,13 @@ enum status sim_step(struct sim *sim, struct error *err)
     enum status status = begin_step(sim, err); /* what the user or the guard changes */
     if (status)
         return status;
-    look_remember(sim);         /*    for pictures of a moment within the step */
-    status = advance(sim, err); /* 1  positions, velocities                    */
+    if (sim->before)
+        vector_copy(sim, sim->before, sim->position); /* for what watches the points' ways */
+    look_remember(sim);                               /*    for pictures of a moment within the step */
+    status = advance(sim, err);                       /* 1  positions, velocities                    */
+    if (status)
+        return status;
+    status = effects_settle(sim, err); /* what stands in the way */
     if (status)
         return status;
     break_edges(sim);    /* 2  edges past the threshold let go   } once, at the end of a step, so that */

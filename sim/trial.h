@@ -11,6 +11,9 @@
 /* Rows of sim->scratch that a trial needs, from the one that it is told on. */
 enum { TRIAL_VECTORS = 3 };
 
+/* Work of one step of an implicit method, at the least: two evaluations with derivatives and three iterations. */
+enum { TRIAL_IMPLICIT_LEAST = 22 };
+
 struct trial_result {
     double error; /* RMS over the points, in mean radii, a step of the scene; INFINITY: it got nowhere */
     double work;  /* evaluations of the forces a step of the scene, or what takes as long */

@@ -117,6 +117,16 @@ enum status field_init(struct field *field, const struct octree *tree, const str
     return STATUS_OK;
 }
 
+void field_cut_earlier(struct field *cut, const struct field *field, double cutoff)
+{
+    *cut = *field;
+    if (cutoff < field->cutoff) {
+        cut->cutoff = cutoff;
+        cut->reach = cutoff * field->sigma;
+        distribution_fill(&cut->distribution, cutoff);
+    }
+}
+
 /* The continuum: the distribution function of the cut-off normal, less a half. */
 static void fill_continuum(const struct field *field, double x, struct profile *profile)
 {

@@ -76,6 +76,12 @@ static enum status draw(const struct cost_table *table, const char *sculpture, c
                                                    .label = &label[first],
                                                    .count = row - first};
     }
+<<<<<<< 35bc2a32d240cb92d6bd9916ef07c57dafdff06c
+    const struct plot_panel panels[] = {
+        {"distance from the surface", "RMS error, share of the extent", "seconds", true, true, series[0],
+         COST_DIALS, false},
+        {"volume", "relative error", "seconds", true, true, series[1], COST_DIALS, false}};
+=======
     const struct plot_panel panels[] = {{.title = "distance from the surface",
                                          .x_label = "RMS error, share of the extent",
                                          .y_label = "seconds",
@@ -90,6 +96,7 @@ static enum status draw(const struct cost_table *table, const char *sculpture, c
                                          .log_y = true,
                                          .series = series[1],
                                          .series_count = COST_DIALS}};
+>>>>>>> origin/main
     const struct plot plot = {.title = sculpture, .panels = panels, .panel_count = 2, .columns = 2};
     return plot_save(&plot, path, err);
 }

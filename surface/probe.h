@@ -14,12 +14,13 @@
 
 enum { PROBE_WINDOWS = 64 };
 
-/* Scratch, and the fields around the last few cells. */
+/* Scratch, and the fields around the last few regions. */
 struct probe {
     const struct field *field; /* borrowed */
+    int region;                /* cells along an axis whose points share a window */
     struct {
         bool valid;
-        int cell[3];
+        int region[3]; /* its place, in regions */
         struct window near;
     } kept[PROBE_WINDOWS];
     struct profiles profiles;
@@ -30,6 +31,9 @@ struct probe {
 /* Errors: STATUS_NO_MEMORY. */
 enum status probe_init(struct probe *probe, const struct field *field, struct error *err);
 void probe_clear(struct probe *probe);
+
+/* Prepares for many points on a surface, each about `spacing` cells from the next. Values are the same, only sooner. */
+void probe_expect(struct probe *probe, double spacing);
 
 /* The field at a point, and its gradient. */
 double probe_value(struct probe *probe, const double point[3], double gradient[3]);

@@ -26,19 +26,31 @@ static double square_distance(const double a[3], const double b[3])
     return vec3_dot(d, d);
 }
 
-/* The smallest angle lies between the two longer sides: its sine is twice the area over their product. */
-static struct worth worth_of(const double *const place[3], const double *const normal[3])
+static double least_of(double a, double b, double c)
 {
-    double across[3];
+    double least = a < b ? a : b;
+    return least < c ? least : c;
+}
+
+/* The smallest angle lies between the two longer sides: its sine is twice the area over their product. 0 where there
+ * is no area. */
+static double angle_of(const double *const place[3], double across[3])
+{
     vec3_triangle(place[0], place[1], place[2], across);
     double a = square_distance(place[0], place[1]), b = square_distance(place[1], place[2]),
            c = square_distance(place[2], place[0]), area = vec3_dot(across, across);
-    double shortest = fmin(a, fmin(b, c)), longer = shortest > 0 ? a * b * c / shortest : 0;
-    if (!(area > 0 && longer > 0))
+    double shortest = least_of(a, b, c), longer = shortest > 0 ? a * b * c / shortest : 0;
+    return area > 0 && longer > 0 ? area / longer : 0;
+}
+
+static struct worth worth_of(const double *const place[3], const double *const normal[3])
+{
+    double across[3], angle = angle_of(place, across);
+    if (!(angle > 0))
         return (struct worth){0, -1};
-    double facing = fmin(vec3_dot(across, normal[0]),
-                         fmin(vec3_dot(across, normal[1]), vec3_dot(across, normal[2])));
-    return (struct worth){area / longer, facing / sqrt(area)};
+    double facing = least_of(vec3_dot(across, normal[0]), vec3_dot(across, normal[1]),
+                             vec3_dot(across, normal[2]));
+    return (struct worth){angle, facing / vec3_length(across)};
 }
 
 static struct worth worse(struct worth a, struct worth b)
@@ -226,6 +238,14 @@ static bool try_flip(const struct remesh *r, uint32_t side, double most_square, 
 /* sin^2 of 30 degrees: below this a flip that opens the angle is worth a point with seven neighbours. */
 #define ANGLE_NARROW 0.25
 
+static bool is_narrow(const struct remesh *r, uint32_t t)
+{
+    const uint32_t *p = r->triangle[t];
+    double across[3];
+    return angle_of((const double *const[]){r->position[p[0]], r->position[p[1]], r->position[p[2]]},
+                    across) < ANGLE_NARROW;
+}
+
 void edges_flip(struct remesh *r, double most)
 {
     for (uint32_t side = 0; side < 3 * r->triangle_count; side++) {
@@ -233,7 +253,9 @@ void edges_flip(struct remesh *r, double most)
             continue;
         int gain = flip_gain(r, side);
         struct change change;
-        if (gain < -4 || !try_flip(r, side, most * most, &change))
+        if (gain < -4 || (gain <= 0 && !is_narrow(r, side / 3) && !is_narrow(r, side_across(r, side) / 3)))
+            continue;
+        if (!try_flip(r, side, most * most, &change))
             continue;
         bool regular = gain > 0 && change.after.angle > fmin(0.5 * change.before.angle, ANGLE_LEAST);
         bool wider = change.before.angle < ANGLE_NARROW && change.after.angle > 1.3 * change.before.angle;

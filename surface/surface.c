@@ -29,9 +29,9 @@ static double expected_points(const struct making *making, double cube)
     return (double)making->info.exposed_faces / (cube * cube);
 }
 
-/* Bytes at the peak for each point: its vertex, its place in the mesh, two triangles twice, its share of a
- * brick. */
-enum { POINT_BYTES = 170 };
+/* Bytes at the peak for each point, two triangles with it: while the mesh is put together, its vertex and its place in
+ * the mesh; while it is relaxed, where it is and where it goes. */
+enum { POINT_BYTES = 240 };
 
 static double usable_memory(void)
 {
@@ -129,9 +129,10 @@ static enum status check_reached(const struct making *making, struct error *err)
 static enum status choose_cube(const struct making *making, double *cube, struct error *err)
 {
     double wanted = making->options->triangles, low = 0, high = INFINITY, best = INFINITY;
+    double near = making->options->relax ? 0.08 : 0.02; /* relaxation brings the number to the one wanted */
     double size = sqrt(2 * expected_points(making, 1) / wanted);
     *cube = size;
-    for (int turn = 0; turn < 24 && best > 0.02; turn++) {
+    for (int turn = 0; turn < 24 && best > near; turn++) {
         size_t count = 0;
         if (count_triangles(making, size, &count, err))
             return err->status;

@@ -194,6 +194,8 @@ static struct row_sum sum_row(const struct window *w, size_t row, const struct p
     struct row_sum total = {0, 0};
     for (uint32_t i = w->start[row]; i < w->start[row + 1]; i++) {
         const struct window_run *run = &w->run[i];
+        if (run->end <= x->first || run->begin >= x->last)
+            continue;
         int begin = profile_index(x->first, x->last, run->begin),
             end = profile_index(x->first, x->last, run->end);
         total.value += run->weight * (x->sum[track][end] - x->sum[track][begin]);

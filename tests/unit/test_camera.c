@@ -247,7 +247,7 @@ static void the_pixels_of_an_eye_hold_every_point_it_sees(void **state)
         }
         for (int e = 0; e < 2; e++) {
             int box[4];
-            camera_pixels(&view, &eyes[e], low, high, 5 / unit, 15 / unit, box);
+            camera_pixels(&eyes[e], low, high, 5 / unit, 15 / unit, box);
             for (int p = 0; p < 5; p++) {
                 double seen[2];
                 project(&view, &eyes[e], points[p], seen);

@@ -11,10 +11,18 @@ static const char *const label[] = {"1/4", "it's", "a \"b\" \\c\n", "d"};
 
 static enum status save(enum plot_style style, const char *path, struct error *err)
 {
-    const struct plot_series series[] = {{"first's", style, x, y, label, 4}, {NULL, style, x, y, NULL, 4}};
-    const struct plot_panel panels[] = {{"one", "error", "seconds", true, true, series, 2},
-                                        {NULL, NULL, NULL, true, true, NULL, 0}};
-    const struct plot plot = {"it's a 'title'", panels, 2, 2};
+    const struct plot_series series[] = {
+        {.name = "first's", .style = style, .x = x, .y = y, .label = label, .count = 4},
+        {.style = style, .x = x, .y = y, .count = 4, .colour = PLOT_BLACK, .mark = PLOT_RING}};
+    const struct plot_panel panels[] = {{.title = "one",
+                                         .x_label = "error",
+                                         .y_label = "seconds",
+                                         .log_x = true,
+                                         .log_y = true,
+                                         .series = series,
+                                         .series_count = 2},
+                                        {.log_x = true, .log_y = true, .key_outside = true}};
+    const struct plot plot = {.title = "it's a 'title'", .panels = panels, .panel_count = 2, .columns = 2};
     return plot_save(&plot, path, err);
 }
 

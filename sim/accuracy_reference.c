@@ -1,0 +1,159 @@
+/* Two references that know nothing of each other: a method that chooses its steps, at the tightest tolerance that it can keep; and
+ * one of fixed steps, halved and extrapolated until the two agree as far as rounding lets them. */
+#include "sim/accuracy_plan.h"
+#include "sim/guard.h"
+
+#include <math.h>
+
+/* Explicit methods, unless the steps that are stable are too many. */
+struct pair {
+    const char *tolerant[3]; /* the first of them that is there */
+    const char *fixed;
+};
+static const struct pair explicit_pair = {{"cvode-adams", "rk-adaptive", NULL}, "rkn4"},
+                         implicit_pair = {{"cvode-bdf", "rk-adaptive", NULL}, "implicit-midpoint"};
+
+static double budget(const struct accuracy_plan *plan)
+{
+    return ACCURACY_REFERENCE_SHARE * plan->subject.options->seconds;
+}
+
+static enum status find_tolerant(struct accuracy_plan *plan, const struct pair *pair,
+                                 struct accuracy_states *states, struct error *err)
+{
+    enum status status = STATUS_RESOURCE;
+    for (int i = 0; pair->tolerant[i]; i++)
+        for (double tolerance = 1e-12; tolerance < 1e-5; tolerance *= 10) {
+            const struct integrator *method = integrator_find(pair->tolerant[i]);
+            const struct accuracy_dials dials = accuracy_dials_of(plan, method, tolerance);
+            struct accuracy_run run;
+            status = accuracy_go(&run, &plan->subject, &dials, budget(plan), states, err);
+            if (!status) {
+                snprintf(plan->table->reference[0], sizeof plan->table->reference[0],
+                         "%s at time.tolerance=%g", method->name, tolerance);
+                accuracy_close(&run);
+                return STATUS_OK;
+            }
+            if (status != STATUS_RANGE && status != STATUS_RESOURCE)
+                return status;
+        }
+    return status;
+}
+
+/* fine becomes what is left when the error's first term, of the method's order, is taken out. */
+static void extrapolate(const struct sim *sim, const struct accuracy_states *coarse, int order,
+                        const struct accuracy_states *fine, struct accuracy_states *result)
+{
+    const double w = 1 / (ldexp(1, order) - 1);
+    for (int i = 0; i < ACCURACY_TIMES; i++) {
+        for (uint32_t p = 0; p < sim->point_count; p++)
+            for (int k = 0; k < 4; k++)
+                result->position[i][p][k] = fine->position[i][p][k] +
+                                            w * (fine->position[i][p][k] - coarse->position[i][p][k]);
+        result->volume[i] = fine->volume[i] + w * (fine->volume[i] - coarse->volume[i]);
+        result->pressure[i] = fine->pressure[i] + w * (fine->pressure[i] - coarse->pressure[i]);
+        result->energy[i] = fine->energy[i] + w * (fine->energy[i] - coarse->energy[i]);
+    }
+}
+
+static void swap(struct accuracy_states *a, struct accuracy_states *b)
+{
+    const struct accuracy_states kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+/* What find_fixed() works on. */
+struct halving {
+    struct accuracy_states coarse, fine, result;
+    double parts; /* of the scene's step */
+    double spent; /* s */
+};
+
+/* Once more, in twice as many parts; with the run before it extrapolated, it is the reference if that agrees better. */
+static enum status halve(struct accuracy_plan *plan, const struct integrator *method, struct halving *h,
+                         const struct accuracy_states *other, struct error *err)
+{
+    const struct accuracy_dials dials = accuracy_dials_of(plan, method, plan->step / h->parts);
+    struct accuracy_run run;
+    enum status status = accuracy_go(&run, &plan->subject, &dials, 4 * budget(plan), &h->fine, err);
+    if (status)
+        return status;
+    if (h->coarse.position[0]) {
+        if (!h->result.position[0])
+            status = accuracy_states_open(&h->result, &run.sim, err);
+        if (!status)
+            extrapolate(&run.sim, &h->coarse, method->order, &h->fine, &h->result);
+        const double distance = status ? INFINITY : accuracy_distance(&run.sim, &h->result, other);
+        if (distance < plan->table->agreement) {
+            plan->table->agreement = distance;
+            swap(&h->result, &plan->reference);
+            snprintf(plan->table->reference[1], sizeof plan->table->reference[1],
+                     "%s in steps of %.3g and %.3g s, extrapolated", method->name, 2 * dials.step,
+                     dials.step);
+        }
+    }
+    h->spent = run.seconds;
+    h->parts *= 2;
+    swap(&h->coarse, &h->fine);
+    accuracy_close(&run);
+    return status;
+}
+
+/* Halves until the agreement is that of rounding, or no longer improves, or it would take too long. */
+static enum status find_fixed(struct accuracy_plan *plan, const struct pair *pair,
+                              const struct accuracy_states *other, struct error *err)
+{
+    enum { AT_LEAST = 3, AT_MOST = 20 };
+    const struct integrator *method = integrator_find(pair->fixed);
+    const double limit = isfinite(method->oscillation_limit) ? method->oscillation_limit / 2 : INFINITY,
+                 total = budget(plan);
+    struct halving h = {.parts = 2};
+    plan->table->agreement = INFINITY;
+    while (plan->step / h.parts > plan->stable * limit)
+        h.parts *= 2;
+    enum status status = STATUS_OK;
+    double spent = 0, before = INFINITY;
+    for (int i = 0; i < AT_MOST && !status; i++) {
+        status = halve(plan, method, &h, other, err);
+        spent += h.spent;
+        const double agreement = plan->table->agreement;
+        if (i >= AT_LEAST - 1 && (agreement < 1e-13 || agreement > 0.7 * before))
+            break;
+        if (i > 0 && spent + 2 * h.spent > total)
+            break;
+        before = agreement;
+    }
+    accuracy_states_close(&h.coarse);
+    accuracy_states_close(&h.fine);
+    accuracy_states_close(&h.result);
+    return status;
+}
+
+static enum status find_both(struct accuracy_plan *plan, const struct pair *pair, struct error *err)
+{
+    struct accuracy_states tolerant = {0};
+    enum status status = find_tolerant(plan, pair, &tolerant, err);
+    if (!status)
+        status = find_fixed(plan, pair, &tolerant, err);
+    accuracy_states_close(&tolerant);
+    return status;
+}
+
+enum status accuracy_find_reference(struct accuracy_plan *plan, struct error *err)
+{
+    enum { TRIES = 6 };
+    enum status status = STATUS_OK;
+    for (int i = 0; i < TRIES; i++) {
+        const double evaluations = 4 * plan->table->span / plan->stable;
+        const bool is_stiff = evaluations * plan->evaluation > budget(plan) / 2;
+        status = find_both(plan, is_stiff ? &implicit_pair : &explicit_pair, err);
+        if (status != STATUS_INPUT)
+            break;
+        plan->reach = 0.8 * plan->table->span; /* it breaks earlier than by the first run */
+        accuracy_set_span(plan);
+    }
+    if (status && status != STATUS_INTERRUPTED)
+        error_prefix(err, "--accuracy-cost, the references");
+    return status;
+}

@@ -1,0 +1,170 @@
+#include "sim/accuracy_run.h"
+#include "common/array.h"
+#include "common/random.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static int index_of(const char *integrator)
+{
+    int i = 0;
+    while (strcmp(scene_integrator_names[i], integrator))
+        i++;
+    return i;
+}
+
+/* Another member of the ensemble: every coordinate somewhere within 1e-9 of the radius from where it was. */
+static void perturb(struct sim *sim, uint64_t member)
+{
+    uint64_t random = member;
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
+        for (uint32_t p = b->point_begin; p < b->point_end; p++)
+            for (int i = 0; i < 3; i++)
+                sim->position[p][i] += 1e-9 * b->radius * (2 * random_unit(&random) - 1);
+}
+
+enum status accuracy_open(struct accuracy_run *run, const struct accuracy_subject *subject,
+                          const struct accuracy_dials *dials, struct error *err)
+{
+    *run = (struct accuracy_run){.scene = *subject->scene, .limit = INFINITY};
+    run->scene.time.integrator = index_of(dials->method->name);
+    run->scene.time.step = dials->step;
+    run->scene.time.tolerance = dials->tolerance;
+    run->scene.time.end = dials->end;
+    run->scene.time.guard = dials->guard;
+    enum status status = sim_open(&run->sim, &run->scene, subject->meshes, 1, err);
+    if (!status && dials->member)
+        perturb(&run->sim, dials->member);
+    return status;
+}
+
+void accuracy_close(struct accuracy_run *run)
+{
+    sim_clear(&run->sim);
+}
+
+enum status accuracy_step(struct accuracy_run *run, const struct accuracy_subject *subject, struct error *err)
+{
+    const struct accuracy_options *options = subject->options;
+    if (options->go_on && !options->go_on(options->context, subject->done))
+        return error_set(err, STATUS_INTERRUPTED, "interrupted; no table was made");
+    const uint64_t evaluations = run->sim.evaluations, products = run->sim.products;
+    const double began = now();
+    const enum status status = sim_step(&run->sim, err);
+    run->seconds += now() - began;
+    run->evaluations += run->sim.evaluations - evaluations;
+    run->products += run->sim.products - products;
+    if (!status && run->seconds > run->limit)
+        return error_set(err, STATUS_RESOURCE, "takes more than %.2g s", run->limit);
+    return status;
+}
+
+enum status accuracy_advance(struct accuracy_run *run, const struct accuracy_subject *subject, double time,
+                             struct error *err)
+{
+    struct sim *sim = &run->sim;
+    enum status status = STATUS_OK;
+    while (!status && sim->time + (sim->integrator->look ? 0 : sim->step / 2) < time)
+        status = accuracy_step(run, subject, err);
+    return status;
+}
+
+enum status accuracy_states_open(struct accuracy_states *states, const struct sim *sim, struct error *err)
+{
+    *states = (struct accuracy_states){0};
+    for (int i = 0; i < ACCURACY_TIMES; i++)
+        if (!(states->position[i] = array_new(sim->point_count, sizeof *states->position[i])))
+            return error_no_memory(err, "the states that are compared");
+    return STATUS_OK;
+}
+
+void accuracy_states_close(struct accuracy_states *states)
+{
+    for (int i = 0; i < ACCURACY_TIMES; i++)
+        free(states->position[i]);
+    *states = (struct accuracy_states){0};
+}
+
+/* The pressing forces on all points over the area that they press on. */
+static double mean_pressure(const struct sim *sim, double area)
+{
+    double force = 0;
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
+        force += b->now->pressure * (b->point_end - b->point_begin);
+    return area > 0 ? force / area : 0;
+}
+
+static void note(struct sim *sim, double time, int i, struct accuracy_states *states)
+{
+    sim_look(sim, time);
+    const struct sim_measures m = sim_measure(sim);
+    memcpy(states->position[i], sim->position, sim->point_count * sizeof *states->position[i]);
+    states->volume[i] = m.volume;
+    states->pressure[i] = mean_pressure(sim, m.area);
+    states->energy[i] = m.kinetic_energy + m.elastic_energy;
+    sim_look_end(sim);
+}
+
+enum status accuracy_visit(struct accuracy_run *run, const struct accuracy_subject *subject,
+                           struct accuracy_states *states, struct error *err)
+{
+    for (int i = 0; i < ACCURACY_TIMES; i++) {
+        const enum status status = accuracy_advance(run, subject, subject->time[i], err);
+        if (status)
+            return status;
+        if (run->sim.broken)
+            return error_set(err, STATUS_INPUT, "an edge lets go at %g s", run->sim.time);
+        note(&run->sim, subject->time[i], i, states);
+    }
+    return STATUS_OK;
+}
+
+static double distance_at(const struct sim *sim, double (*a)[4], double (*b)[4])
+{
+    double sum = 0;
+    for (const struct sim_balloon *balloon = sim->balloons; balloon < sim->balloons + sim->balloon_count;
+         balloon++) {
+        double own = 0;
+        for (uint32_t p = balloon->point_begin; p < balloon->point_end; p++)
+            for (int i = 0; i < 3; i++)
+                own += (a[p][i] - b[p][i]) * (a[p][i] - b[p][i]);
+        sum += balloon->radius > 0 ? own / (balloon->radius * balloon->radius) : own;
+    }
+    return sqrt(sum / sim->point_count);
+}
+
+double accuracy_distance(const struct sim *sim, const struct accuracy_states *a,
+                         const struct accuracy_states *b)
+{
+    double largest = 0;
+    for (int i = 0; i < ACCURACY_TIMES; i++) {
+        const double distance = distance_at(sim, a->position[i], b->position[i]);
+        if (!(distance <= largest)) /* no number is the worst */
+            largest = distance;
+    }
+    return largest;
+}
+
+enum status accuracy_go(struct accuracy_run *run, const struct accuracy_subject *subject,
+                        const struct accuracy_dials *dials, double limit, struct accuracy_states *states,
+                        struct error *err)
+{
+    enum status status = accuracy_open(run, subject, dials, err);
+    run->limit = limit;
+    if (!status && !states->position[0])
+        status = accuracy_states_open(states, &run->sim, err);
+    if (!status)
+        status = accuracy_visit(run, subject, states, err);
+    if (status)
+        accuracy_close(run);
+    return status;
+}

@@ -1,0 +1,428 @@
+#include "sim/contact_tree.h"
+#include "common/array.h"
+#include "common/threads.h"
+#include "common/vec3.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { LEAF = 4, JOBS = 4096, FITS = 64, SIDES = 13, CONNECTED_MOST = 4096 };
+
+/* Half of the directions to the middles of a cube's faces, edges and corners; the others are their opposites. */
+static const double side[3][SIDES + 3] = {{1, 0, 0, 1, 1, 1, 1, 0, 0, 1, 1, 1, 1},
+                                          {0, 1, 0, 1, -1, 0, 0, 1, 1, 1, 1, -1, -1},
+                                          {0, 0, 1, 0, 0, 1, -1, 1, -1, 1, -1, 1, -1}};
+static const double side_length[SIDES + 3] = {1,
+                                              1,
+                                              1,
+                                              1.4142135623730951,
+                                              1.4142135623730951,
+                                              1.4142135623730951,
+                                              1.4142135623730951,
+                                              1.4142135623730951,
+                                              1.4142135623730951,
+                                              1.7320508075688772,
+                                              1.7320508075688772,
+                                              1.7320508075688772,
+                                              1.7320508075688772};
+
+static const struct contact_box nowhere = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+
+static void join(struct contact_box *box, const struct contact_box *other)
+{
+    for (int i = 0; i < 3; i++) {
+        box->low[i] = other->low[i] < box->low[i] ? other->low[i] : box->low[i];
+        box->high[i] = other->high[i] > box->high[i] ? other->high[i] : box->high[i];
+    }
+}
+
+/* What making the tree needs, and fitting does not. */
+struct maker {
+    struct contact_tree *tree;
+    const struct sim *sim;
+    double (*middle)[3];       /* [triangle_count] */
+    uint32_t (*of_edge)[2];    /* [edge_count] the triangles at an edge */
+    uint32_t *parent, *inside; /* [triangle_count] for pieces; the node that a triangle was last seen in */
+};
+
+static int longest_axis(const struct maker *m, uint32_t begin, uint32_t end)
+{
+    struct contact_box box = nowhere;
+    for (uint32_t i = begin; i < end; i++) {
+        const double *x = m->middle[m->tree->order[i]];
+        const struct contact_box point = {{x[0], x[1], x[2]}, {x[0], x[1], x[2]}};
+        join(&box, &point);
+    }
+    int axis = 0;
+    for (int i = 1; i < 3; i++)
+        if (box.high[i] - box.low[i] > box.high[axis] - box.low[axis])
+            axis = i;
+    return axis;
+}
+
+static bool is_before(const struct maker *m, uint32_t a, uint32_t b, int axis)
+{
+    return m->middle[a][axis] < m->middle[b][axis] || (m->middle[a][axis] == m->middle[b][axis] && a < b);
+}
+
+/* Hoare's FIND (CACM 4 (1961) 321): what is before the middle one in this axis comes to stand before it. */
+static void select_middle(const struct maker *m, uint32_t begin, uint32_t end, uint32_t middle, int axis)
+{
+    uint32_t *order = m->tree->order;
+    int64_t low = begin, high = (int64_t)end - 1;
+    while (low < high) {
+        const uint32_t pivot = order[middle];
+        int64_t i = low, j = high;
+        while (i <= j) {
+            while (is_before(m, order[i], pivot, axis))
+                i++;
+            while (is_before(m, pivot, order[j], axis))
+                j--;
+            if (i > j)
+                break;
+            const uint32_t swap = order[i];
+            order[i++] = order[j];
+            order[j--] = swap;
+        }
+        if (j < middle)
+            low = i;
+        if (middle < i)
+            high = j;
+    }
+}
+
+static uint32_t find(uint32_t *parent, uint32_t i)
+{
+    while (parent[i] != i)
+        i = parent[i] = parent[parent[i]];
+    return i;
+}
+
+static bool is_connected(struct maker *m, uint32_t node)
+{
+    const struct contact_node *n = &m->tree->nodes[node];
+    const uint32_t *order = m->tree->order;
+    uint32_t pieces = n->end - n->begin;
+    if (pieces > CONNECTED_MOST)
+        return false;
+    for (uint32_t i = n->begin; i < n->end; i++) {
+        m->parent[order[i]] = order[i];
+        m->inside[order[i]] = node;
+    }
+    for (uint32_t i = n->begin; i < n->end; i++)
+        for (int k = 0; k < 3; k++) {
+            const uint32_t *two = m->of_edge[m->sim->triangle_edge[order[i]][k]];
+            if (m->inside[two[0]] != node || m->inside[two[1]] != node)
+                continue;
+            const uint32_t a = find(m->parent, two[0]), b = find(m->parent, two[1]);
+            pieces -= a != b;
+            m->parent[a] = b;
+        }
+    return pieces == 1;
+}
+
+static void make(struct maker *m, uint32_t begin, uint32_t end)
+{
+    struct contact_tree *tree = m->tree;
+    const uint32_t node = tree->node_count++;
+    struct contact_node *n = &tree->nodes[node];
+    *n = (struct contact_node){.begin = begin, .end = end};
+    n->connected = is_connected(m, node);
+    if (end - begin > LEAF) {
+        const uint32_t middle = begin + (end - begin) / 2;
+        select_middle(m, begin, end, middle, longest_axis(m, begin, end));
+        make(m, begin, middle);
+        n->right = tree->node_count;
+        make(m, middle, end);
+    }
+    n->next = tree->node_count;
+}
+
+static void make_all(struct maker *m)
+{
+    const struct sim *sim = m->sim;
+    for (uint32_t t = 0; t < sim->triangle_count; t++) {
+        const uint32_t *p = sim->triangle_point[t];
+        m->tree->order[t] = t;
+        m->inside[t] = UINT32_MAX;
+        for (int i = 0; i < 3; i++)
+            m->middle[t][i] = sim->position[p[0]][i] + sim->position[p[1]][i] + sim->position[p[2]][i];
+    }
+    for (uint32_t t = sim->triangle_count; t-- > 0;)
+        for (int k = 0; k < 3; k++) {
+            uint32_t *two = m->of_edge[sim->triangle_edge[t][k]];
+            two[1] = two[0];
+            two[0] = t;
+        }
+    for (size_t b = 0; b < sim->balloon_count; b++) {
+        m->tree->root[b] = m->tree->node_count;
+        make(m, sim->balloons[b].triangle_begin, sim->balloons[b].triangle_end);
+    }
+}
+
+/* The nodes with at most this share of all triangles whose parents have more. */
+static void find_fits(struct contact_tree *tree, uint32_t triangles)
+{
+    const uint32_t most = triangles / (FITS / 4) + LEAF;
+    for (uint32_t n = 0; n < tree->node_count;) {
+        const struct contact_node *node = &tree->nodes[n];
+        const bool small = node->end - node->begin <= most || !node->right;
+        if (small)
+            tree->fit[tree->fit_count++] = n;
+        n = small ? node->next : n + 1;
+    }
+}
+
+enum status contact_tree_open(struct contact_tree *tree, struct sim *sim, struct error *err)
+{
+    const size_t triangles = sim->triangle_count;
+    struct maker m = {.tree = tree, .sim = sim};
+    tree->nodes = sim_table(sim, 2 * triangles, sizeof *tree->nodes);
+    tree->order = sim_table(sim, triangles, sizeof *tree->order);
+    tree->box = sim_table(sim, triangles, sizeof *tree->box);
+    tree->root = sim_table(sim, sim->balloon_count, sizeof *tree->root);
+    tree->jobs = sim_table(sim, JOBS, sizeof *tree->jobs);
+    tree->fit = sim_table(sim, FITS + 2 * sim->balloon_count, sizeof *tree->fit);
+    m.middle = array_new(triangles, sizeof *m.middle);
+    m.of_edge = calloc(sim->edge_count, sizeof *m.of_edge);
+    m.parent = array_new(triangles, sizeof *m.parent);
+    m.inside = array_new(triangles, sizeof *m.inside);
+    const bool room = tree->nodes && tree->order && tree->box && tree->root && tree->jobs && tree->fit &&
+                      m.middle && m.of_edge && m.parent && m.inside;
+    if (room) {
+        make_all(&m);
+        find_fits(tree, sim->triangle_count);
+    }
+    free(m.middle);
+    free(m.of_edge);
+    free(m.parent);
+    free(m.inside);
+    return room ? STATUS_OK : error_no_memory(err, "the tree for contact");
+}
+
+void contact_tree_close(struct contact_tree *tree)
+{
+    free(tree->nodes);
+    free(tree->order);
+    free(tree->root);
+    free(tree->box);
+    free(tree->jobs);
+    free(tree->fit);
+    *tree = (struct contact_tree){0};
+}
+
+/* Twice the area along the normal, the longest two sides' sum in *sides. */
+static void normal_of(double (*x)[4], const uint32_t *p, double normal[3], double *sides)
+{
+    double ab[3], ac[3];
+    vec3_sub(x[p[1]], x[p[0]], ab);
+    vec3_sub(x[p[2]], x[p[0]], ac);
+    vec3_cross(ab, ac, normal);
+    *sides = vec3_length(ab) + vec3_length(ac);
+}
+
+/* With the corners off by `stray` each, two sides a and b are off by up to 2 stray, and the normal by 2 stray (|a| + |b|) + 4 stray^2. */
+static uint32_t sides_of(const struct contact_ways *ways, const uint32_t *p)
+{
+    double n[3][3], d[4][4], ignored, sides;
+    normal_of(ways->from, p, n[0], &ignored);
+    normal_of(ways->to, p, n[2], &sides);
+    const uint32_t own[3] = {0, 1, 2};
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++)
+            d[k][i] = ways->to[p[k]][i] - ways->from[p[k]][i];
+    normal_of(d, own, n[1], &ignored);
+    for (int i = 0; i < 3; i++)
+        n[1][i] = (n[0][i] + n[2][i] - n[1][i]) / 2;
+    const double slack = 2 * ways->stray * sides + 4 * ways->stray * ways->stray;
+    double least[SIDES + 3], most[SIDES + 3];
+    for (int s = 0; s < SIDES + 3; s++) {
+        double along[3];
+        for (int i = 0; i < 3; i++)
+            along[i] = n[i][0] * side[0][s] + n[i][1] * side[1][s] + n[i][2] * side[2][s];
+        const double low = along[0] < along[1] ? along[0] : along[1],
+                     high = along[0] > along[1] ? along[0] : along[1];
+        least[s] = (low < along[2] ? low : along[2]) - slack * side_length[s];
+        most[s] = (high > along[2] ? high : along[2]) + slack * side_length[s];
+    }
+    uint32_t bits = 0;
+    for (int s = 0; s < SIDES; s++)
+        bits |= (uint32_t)(least[s] > 0) << s | (uint32_t)(most[s] < 0) << (s + SIDES);
+    return bits;
+}
+
+static bool is_whole(const struct sim *sim, uint32_t t)
+{
+    const uint32_t *e = sim->triangle_edge[t];
+    return sim->edge_active[e[0]] && sim->edge_active[e[1]] && sim->edge_active[e[2]];
+}
+
+static void fit_leaf(const struct contact_tree *tree, const struct sim *sim, const struct contact_ways *ways,
+                     struct contact_node *node)
+{
+    const double more = ways->stray + ways->room / 2;
+    for (uint32_t i = node->begin; i < node->end; i++) {
+        const uint32_t t = tree->order[i], *p = sim->triangle_point[t];
+        struct contact_box box = nowhere;
+        tree->box[t] = box;
+        if (!sim->triangle_active[t])
+            continue;
+        for (int k = 0; k < 3; k++)
+            for (int j = 0; j < 3; j++) {
+                const double a = ways->from[p[k]][j], b = ways->to[p[k]][j], low = a < b ? a : b,
+                             high = a < b ? b : a;
+                box.low[j] = low < box.low[j] ? low : box.low[j];
+                box.high[j] = high > box.high[j] ? high : box.high[j];
+            }
+        for (int j = 0; j < 3; j++) {
+            box.low[j] -= more;
+            box.high[j] += more;
+        }
+        tree->box[t] = box;
+        join(&node->box, &box);
+        node->sides &= is_whole(sim, t) ? sides_of(ways, p) : 0;
+    }
+}
+
+static void fit_nodes(const struct contact_tree *tree, const struct sim *sim, const struct contact_ways *ways,
+                      uint32_t begin, uint32_t end)
+{
+    for (uint32_t n = end; n-- > begin;) {
+        struct contact_node *node = &tree->nodes[n];
+        node->box = nowhere;
+        node->sides = UINT32_MAX;
+        if (!node->right) {
+            fit_leaf(tree, sim, ways, node);
+            continue;
+        }
+        const struct contact_node *left = &tree->nodes[n + 1], *right = &tree->nodes[node->right];
+        node->box = left->box;
+        join(&node->box, &right->box);
+        node->sides = left->sides & right->sides;
+    }
+}
+
+struct fit_job {
+    const struct contact_tree *tree;
+    const struct sim *sim;
+    const struct contact_ways *ways;
+};
+
+static void fit_one(void *context, size_t index, unsigned worker)
+{
+    (void)worker;
+    const struct fit_job *job = context;
+    const uint32_t node = job->tree->fit[index];
+    fit_nodes(job->tree, job->sim, job->ways, node, job->tree->nodes[node].next);
+}
+
+void contact_tree_fit(struct contact_tree *tree, struct sim *sim, const struct contact_ways *ways)
+{
+    struct fit_job job = {tree, sim, ways};
+    threads_run(sim->pool, tree->fit_count, fit_one, &job);
+    uint32_t end = tree->node_count; /* what is above those, from the last to the first */
+    for (uint32_t i = tree->fit_count; i-- > 0;) {
+        fit_nodes(tree, sim, ways, tree->nodes[tree->fit[i]].next, end);
+        end = tree->fit[i];
+    }
+    fit_nodes(tree, sim, ways, 0, end);
+}
+
+struct search {
+    struct contact_tree *tree;
+    void (*take)(void *context, uint32_t t, uint32_t u);
+    void *context;
+};
+
+static void take_leaves(const struct search *s, const struct contact_node *a, const struct contact_node *b)
+{
+    const uint32_t *order = s->tree->order;
+    const struct contact_box *box = s->tree->box;
+    for (uint32_t i = a->begin; i < a->end; i++)
+        for (uint32_t j = a == b ? i + 1 : b->begin; j < b->end; j++) {
+            const uint32_t t = order[i], u = order[j];
+            if (contact_boxes_meet(&box[t], &box[u]))
+                s->take(s->context, t < u ? t : u, t < u ? u : t);
+        }
+}
+
+/* What two nodes, or one and itself, come to: up to three smaller jobs. 0: leaves, or nothing. */
+static int divide(const struct contact_tree *tree, struct contact_job job, struct contact_job parts[3])
+{
+    const struct contact_node *a = &tree->nodes[job.a], *b = &tree->nodes[job.b];
+    if (job.a == job.b) {
+        if (!a->right)
+            return 0;
+        parts[0] = (struct contact_job){job.a + 1, job.a + 1};
+        parts[1] = (struct contact_job){a->right, a->right};
+        parts[2] = (struct contact_job){job.a + 1, a->right};
+        return 3;
+    }
+    const bool first = a->right && (!b->right || a->end - a->begin >= b->end - b->begin);
+    if (!first && !b->right)
+        return 0;
+    parts[0] = first ? (struct contact_job){job.a + 1, job.b} : (struct contact_job){job.a, job.b + 1};
+    parts[1] = first ? (struct contact_job){a->right, job.b} : (struct contact_job){job.a, b->right};
+    return 2;
+}
+
+static bool is_empty(const struct contact_tree *tree, struct contact_job job)
+{
+    const struct contact_node *a = &tree->nodes[job.a], *b = &tree->nodes[job.b];
+    return job.a == job.b ? a->sides && a->connected : !contact_boxes_meet(&a->box, &b->box);
+}
+
+static void search(const struct search *s, struct contact_job job)
+{
+    struct contact_job parts[3];
+    if (is_empty(s->tree, job))
+        return;
+    const int count = divide(s->tree, job, parts);
+    if (count == 0)
+        take_leaves(s, &s->tree->nodes[job.a], &s->tree->nodes[job.b]);
+    for (int i = 0; i < count; i++)
+        search(s, parts[i]);
+}
+
+static void search_one(void *context, size_t index, unsigned worker)
+{
+    (void)worker;
+    const struct search *s = context;
+    search(s, s->tree->jobs[index]);
+}
+
+/* Divides the jobs at hand until there are enough to share out; what comes to nothing is dropped. */
+static void share_out(struct contact_tree *tree)
+{
+    enum { ENOUGH = 128 };
+    uint32_t begin = 0, end = tree->job_count;
+    while (begin < end && end - begin < ENOUGH && end + 3 < JOBS) {
+        struct contact_job parts[3];
+        const struct contact_job job = tree->jobs[begin];
+        if (is_empty(tree, job)) {
+            begin++;
+            continue;
+        }
+        const int count = divide(tree, job, parts);
+        if (count == 0)
+            break;
+        begin++;
+        for (int i = 0; i < count; i++)
+            tree->jobs[end++] = parts[i];
+    }
+    memmove(tree->jobs, tree->jobs + begin, (end - begin) * sizeof *tree->jobs);
+    tree->job_count = end - begin;
+}
+
+void contact_tree_pairs(struct contact_tree *tree, struct sim *sim,
+                        void (*take)(void *context, uint32_t t, uint32_t u), void *context)
+{
+    struct search s = {tree, take, context};
+    for (size_t i = 0; i < sim->balloon_count; i++)
+        for (size_t j = i; j < sim->balloon_count; j++) {
+            tree->jobs[0] = (struct contact_job){tree->root[i], tree->root[j]};
+            tree->job_count = 1;
+            share_out(tree);
+            threads_run(sim->pool, tree->job_count, search_one, &s);
+        }
+}

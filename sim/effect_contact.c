@@ -1,0 +1,185 @@
+/* The scene's block `contact` (contact.h): what it keeps, and where it begins. */
+#include "common/vec3.h"
+#include "sim/contact.h"
+#include "sim/effects.h"
+#include "sim/ledger.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static bool wanted(const struct scene *scene)
+{
+    return scene->contact.on;
+}
+
+static double least_edge(const struct sim *sim)
+{
+    double least = INFINITY;
+    for (size_t b = 0; b < sim->balloon_count; b++)
+        least = fmin(least, sim->balloons[b].mean_rest_length);
+    return least;
+}
+
+static bool allocate(struct sim *sim, struct contact *c)
+{
+    enum { PAIRS_A_TRIANGLE = 24 };
+    const size_t points = sim->point_count, triangles = sim->triangle_count;
+    const size_t pairs = PAIRS_A_TRIANGLE * triangles + 4096;
+    c->pair_capacity = pairs < UINT32_MAX ? (uint32_t)pairs : UINT32_MAX;
+    c->from = sim_table(sim, points, sizeof *c->from);
+    c->to = sim_table(sim, points, sizeof *c->to);
+    c->owned = sim_table(sim, triangles, 1);
+    c->point_taken = sim_table(sim, points, 1);
+    c->edge_taken = sim_table(sim, sim->edge_count, 1);
+    c->pairs = sim_table(sim, c->pair_capacity, sizeof *c->pairs);
+    c->hits = sim_table(sim, c->pair_capacity, sizeof *c->hits);
+    c->stirred = sim_table(sim, points, 1);
+    c->zone = sim_table(sim, points, sizeof *c->zone);
+    c->drift = sim_table(sim, points, sizeof *c->drift);
+    c->strayed = sim_table(sim, sim->part_count, sizeof *c->strayed);
+    return c->from && c->to && c->owned && c->point_taken && c->edge_taken && c->pairs && c->hits &&
+           c->stirred && c->zone && c->drift && c->strayed;
+}
+
+/* Whether the edge a b passes through the triangle: its ends on two sides, and its line between the corners. */
+static bool passes(double (*x)[4], const uint32_t *edge, const uint32_t *t)
+{
+    double side[2], turn[3], n[3], a[3], b[3], cross[3], way[3];
+    vec3_triangle(x[t[0]], x[t[1]], x[t[2]], n);
+    for (int i = 0; i < 2; i++) {
+        vec3_sub(x[edge[i]], x[t[0]], a);
+        side[i] = vec3_dot(a, n);
+    }
+    if ((side[0] > 0) == (side[1] > 0))
+        return false;
+    vec3_sub(x[edge[1]], x[edge[0]], way);
+    for (int k = 0; k < 3; k++) {
+        vec3_sub(x[t[k]], x[edge[0]], a);
+        vec3_sub(x[t[(k + 1) % 3]], x[edge[0]], b);
+        vec3_cross(a, b, cross);
+        turn[k] = vec3_dot(cross, way);
+    }
+    return (turn[0] > 0) == (turn[1] > 0) && (turn[1] > 0) == (turn[2] > 0);
+}
+
+struct crossings {
+    const struct sim *sim;
+    uint32_t t, u; /* the first that cross */
+    uint32_t found;
+};
+
+static void cross(void *context, uint32_t t, uint32_t u)
+{
+    struct crossings *crossings = context;
+    const struct sim *sim = crossings->sim;
+    const uint32_t both[2] = {t, u};
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 3; k++) {
+            const uint32_t *edge = sim->edge_point[sim->triangle_edge[both[i]][k]],
+                           *other = sim->triangle_point[both[!i]];
+            bool shared = false;
+            for (int j = 0; j < 3; j++)
+                shared |= other[j] == edge[0] || other[j] == edge[1];
+            if (!shared && passes(sim->position, edge, other) &&
+                !__atomic_fetch_add(&crossings->found, 1, __ATOMIC_RELAXED)) {
+                crossings->t = t;
+                crossings->u = u;
+            }
+        }
+}
+
+static size_t balloon_of(const struct sim *sim, uint32_t triangle)
+{
+    size_t b = 0;
+    while (triangle >= sim->balloons[b].triangle_end)
+        b++;
+    return b;
+}
+
+/* Contact keeps apart what is apart; what crosses at first would hang together for ever. */
+static enum status check_apart(struct sim *sim, struct error *err)
+{
+    struct contact *c = sim->contact;
+    struct crossings crossings = {.sim = sim};
+    contact_tree_fit(&c->tree, sim, &(struct contact_ways){sim->position, sim->position, 0, 0});
+    contact_tree_pairs(&c->tree, sim, cross, &crossings);
+    if (crossings.found == 0)
+        return STATUS_OK;
+    const double *x = sim->position[sim->triangle_point[crossings.t][0]];
+    char line[16] = "";
+    if (sim->scene->contact.line)
+        snprintf(line, sizeof line, ":%u", sim->scene->contact.line);
+    return error_set(
+        err, STATUS_INPUT,
+        "%s%s: contact: the skins of balloons[%zu] and balloons[%zu] cross before the first step, near (%g, %g, "
+        "%g); move them apart",
+        sim->scene->path, line, balloon_of(sim, crossings.t), balloon_of(sim, crossings.u), x[0], x[1], x[2]);
+}
+
+static enum status open(struct sim *sim, struct sim_balloon *balloon, struct error *err)
+{
+    (void)balloon;
+    struct contact *c = sim->contact = calloc(1, sizeof *c);
+    if (!c)
+        return error_no_memory(err, "contact");
+    const struct scene_contact *given = &sim->scene->contact;
+    c->thickness = given->thickness > 0 ? given->thickness : least_edge(sim) / 10;
+    c->friction = given->friction;
+    c->stray = least_edge(sim) / 10;
+    c->owned_broken = UINT32_MAX;
+    if (!allocate(sim, c))
+        return error_no_memory(err, "contact");
+    enum status status = sim_keep_before(sim, err);
+    if (!status)
+        status = contact_tree_open(&c->tree, sim, err);
+    if (!status)
+        status = check_apart(sim, err);
+    if (status)
+        return status;
+    memcpy(sim->before, sim->position, sim->point_count * sizeof *sim->before);
+    return contact_list_make(sim, err);
+}
+
+static void close(struct sim *sim, struct sim_balloon *balloon)
+{
+    (void)balloon;
+    struct contact *c = sim->contact;
+    if (!c)
+        return;
+    contact_tree_close(&c->tree);
+    void *tables[] = {c->from, c->to,      c->owned, c->point_taken, c->edge_taken, c->pairs,
+                      c->hits, c->stirred, c->zone,  c->drift,       c->strayed};
+    for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++)
+        free(tables[i]);
+    free(c);
+    sim->contact = NULL;
+}
+
+static size_t blocks(struct sim *sim, struct sim_balloon *balloon, struct sim_block *list)
+{
+    (void)balloon;
+    struct contact *c = sim->contact;
+    const size_t rows = sim->point_count * sizeof *c->from;
+    list[0] = (struct sim_block){"contact", &c->memory, sizeof c->memory};
+    list[1] = (struct sim_block){"contact from", c->from, rows};
+    list[2] = (struct sim_block){"contact to", c->to, rows};
+    return 3;
+}
+
+static enum status settle(struct sim *sim, struct error *err)
+{
+    const double energy = sim->ledger.on ? ledger_energy(sim) : 0;
+    enum status status = contact_settle(sim, err);
+    if (!status && sim->ledger.on && sim->changed)
+        sim->ledger.account.contact += energy - ledger_energy(sim);
+    return status;
+}
+
+const struct effect effect_contact = {.name = "contact",
+                                      .phase = EFFECT_MOVED,
+                                      .scene_wanted = wanted,
+                                      .open = open,
+                                      .close = close,
+                                      .blocks = blocks,
+                                      .settle = settle,
+                                      .source = "Bridson, Fedkiw & Anderson 2002"};

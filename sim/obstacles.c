@@ -1,0 +1,192 @@
+#include "sim/obstacles.h"
+#include "common/vec3.h"
+
+#include <string.h>
+
+static double height_above(const struct obstacle *o, const double x[3])
+{
+    double from[3];
+    vec3_sub(x, o->place, from);
+    return vec3_dot(from, o->normal);
+}
+
+bool obstacle_holds(const struct obstacle *o, const double x[3])
+{
+    switch (o->kind) {
+    case OBSTACLE_PLANE:
+        return height_above(o, x) < 0;
+    case OBSTACLE_SPHERE:
+        return vec3_distance(x, o->place) < o->radius;
+    case OBSTACLE_BOX:
+        return fabs(x[0] - o->place[0]) < o->half[0] && fabs(x[1] - o->place[1]) < o->half[1] &&
+               fabs(x[2] - o->place[2]) < o->half[2];
+    }
+    return false;
+}
+
+static double enter_plane(const struct obstacle *o, const double a[3], const double b[3], double normal[3])
+{
+    const double above = fmax(height_above(o, a), 0), below = height_above(o, b);
+    memcpy(normal, o->normal, sizeof o->normal);
+    return below < 0 ? above / (above - below) : INFINITY;
+}
+
+/* |a + t d - c| = r, the smaller root, in the form that does not cancel. */
+static double enter_sphere(const struct obstacle *o, const double a[3], const double b[3], double normal[3])
+{
+    double d[3], from[3];
+    vec3_sub(b, a, d);
+    vec3_sub(a, o->place, from);
+    const double along = vec3_dot(d, from), squared = vec3_dot(d, d),
+                 outside = fmax(vec3_dot(from, from) - o->radius * o->radius, 0),
+                 root = along * along - squared * outside;
+    if (along >= 0 || root < 0)
+        return INFINITY;
+    const double t = outside / (-along + sqrt(root));
+    for (int i = 0; i < 3; i++)
+        normal[i] = from[i] + t * d[i];
+    const double length = vec3_length(normal);
+    for (int i = 0; i < 3; i++)
+        normal[i] /= length;
+    return t <= 1 ? t : INFINITY;
+}
+
+/* Between the last of the three slabs that is entered and the first that is left. */
+static double enter_box(const struct obstacle *o, const double a[3], const double b[3], double normal[3])
+{
+    double enter = -INFINITY, leave = INFINITY;
+    int axis = 0;
+    for (int i = 0; i < 3; i++) {
+        const double way = b[i] - a[i], side = way > 0 ? -o->half[i] : o->half[i];
+        if (way == 0 && fabs(a[i] - o->place[i]) >= o->half[i])
+            return INFINITY;
+        if (way == 0)
+            continue;
+        const double in = (o->place[i] + side - a[i]) / way, out = (o->place[i] - side - a[i]) / way;
+        if (in > enter) {
+            enter = in;
+            axis = i;
+        }
+        leave = fmin(leave, out);
+    }
+    if (!(enter < leave) || enter > 1 || leave <= 0 || enter == -INFINITY)
+        return INFINITY;
+    for (int i = 0; i < 3; i++)
+        normal[i] = i != axis ? 0 : b[i] > a[i] ? -1 : 1;
+    return fmax(enter, 0);
+}
+
+double obstacle_entry(const struct obstacle *o, const double a[3], const double b[3], double normal[3])
+{
+    switch (o->kind) {
+    case OBSTACLE_PLANE:
+        return enter_plane(o, a, b, normal);
+    case OBSTACLE_SPHERE:
+        return enter_sphere(o, a, b, normal);
+    case OBSTACLE_BOX:
+        return enter_box(o, a, b, normal);
+    }
+    return INFINITY;
+}
+
+/* The first on the way. */
+static const struct obstacle *first_entry(const struct obstacles *obstacles, const double a[3],
+                                          const double b[3], double *time, double normal[3])
+{
+    const struct obstacle *first = NULL;
+    *time = INFINITY;
+    for (size_t i = 0; i < obstacles->count; i++) {
+        double n[3];
+        const double t = obstacle_entry(&obstacles->items[i], a, b, n);
+        if (t < *time) {
+            *time = t;
+            first = &obstacles->items[i];
+            memcpy(normal, n, sizeof n);
+        }
+    }
+    return first;
+}
+
+/* What goes into the surface is taken, or thrown back; what goes along it loses friction times that. */
+static void turn(const struct obstacle *o, const double normal[3], double v[3])
+{
+    const double into = -vec3_dot(v, normal);
+    if (into <= 0)
+        return;
+    for (int i = 0; i < 3; i++)
+        v[i] += into * normal[i];
+    const double along = vec3_length(v), taken = o->friction * (1 + o->bounce) * into,
+                 left = taken < along ? 1 - taken / along : 0;
+    for (int i = 0; i < 3; i++)
+        v[i] = v[i] * left + o->bounce * into * normal[i];
+}
+
+static bool is_inside_any(const struct obstacles *obstacles, const double x[3])
+{
+    for (size_t i = 0; i < obstacles->count; i++)
+        if (obstacle_holds(&obstacles->items[i], x))
+            return true;
+    return false;
+}
+
+/* Puts the point in front of the surface, further and further until rounding agrees; between two surfaces that leave no room for it, back to
+ * where it was. */
+static void put_outside(const struct obstacles *obstacles, const double normal[3], const double last[3],
+                        double x[3])
+{
+    enum { TRIES = 10 };
+    double margin = obstacles->margin;
+    for (int i = 0; i < TRIES; i++, margin *= 2) {
+        double out[3];
+        for (int k = 0; k < 3; k++)
+            out[k] = x[k] + margin * normal[k];
+        if (!is_inside_any(obstacles, out)) {
+            memcpy(x, out, sizeof out);
+            return;
+        }
+    }
+    memcpy(x, last, 3 * sizeof *x);
+}
+
+bool obstacles_turn(const struct obstacles *obstacles, const double from[3], double x[3], double velocity[3])
+{
+    enum { TURNS_MAX = 8 };
+    double here[3] = {from[0], from[1], from[2]};
+    for (int turns = 0; turns < TURNS_MAX; turns++) {
+        double time, normal[3], rest[3], hit[3];
+        const struct obstacle *o = first_entry(obstacles, here, x, &time, normal);
+        if (!o)
+            return turns > 0;
+        for (int i = 0; i < 3; i++) {
+            rest[i] = (x[i] - here[i]) * (1 - time);
+            hit[i] = here[i] + (x[i] - here[i]) * time;
+        }
+        put_outside(obstacles, normal, here, hit);
+        turn(o, normal, rest);
+        turn(o, normal, velocity);
+        for (int i = 0; i < 3; i++) {
+            here[i] = hit[i];
+            x[i] = hit[i] + rest[i];
+        }
+    }
+    memcpy(x, here, sizeof here);
+    return true;
+}
+
+static void settle_part(struct sim *sim, const struct sim_part *part, void *context)
+{
+    const struct obstacles *obstacles = context;
+    uint32_t touched = 0;
+    for (uint32_t p = part->point_begin; p < part->point_end; p++)
+        touched += obstacles_turn(obstacles, sim->before[p], sim->position[p], sim->velocity[p]);
+    obstacles->touched[part - sim->parts] = touched;
+}
+
+bool obstacles_settle(struct sim *sim)
+{
+    sim_each_part(sim, settle_part, sim->obstacles);
+    uint32_t touched = 0;
+    for (size_t i = 0; i < sim->part_count; i++)
+        touched += sim->obstacles->touched[i];
+    return touched > 0;
+}

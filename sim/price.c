@@ -1,0 +1,149 @@
+#include "sim/price.h"
+#include "common/command.h"
+#include "common/file.h"
+#include "sim/interrupt.h"
+#include "sim/price_plot.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void print_rows(const struct accuracy_table *table, FILE *stream)
+{
+    fputs(
+        "method\tsetting\tsteps\tevaluations\tseconds\terror\torder\tlinear_iterations\tvolume_error\t"
+        "pressure_error\tenergy_error\tbest\tchose\tmembers\tburst_time\tburst_time_spread\tpieces\tpieces_spread\t"
+        "largest_piece\tlargest_piece_spread\n",
+        stream);
+    for (size_t i = 0; i < table->count; i++) {
+        const struct accuracy_row *r = &table->rows[i];
+        const struct accuracy_burst *b = &r->burst;
+        fprintf(stream,
+                "%s\t%s\t%" PRIu64 "\t%" PRIu64 "\t%.4g\t%.3e\t%.2f\t%.0f\t%.3e\t%.3e\t%.3e\t%s\t%s\t%d",
+                r->method->name, r->setting, r->steps, r->evaluations, r->seconds, r->error, r->order,
+                r->linear_iterations, r->volume, r->pressure, r->energy, r->best ? "yes" : "no",
+                *r->chose ? r->chose : "-", b->members);
+        const double numbers[] = {b->time.mean,     b->time.spread,  b->pieces.mean,
+                                  b->pieces.spread, b->largest.mean, b->largest.spread};
+        for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
+            fprintf(stream, b->members ? "\t%.4g" : "\tnan", numbers[k]);
+        fputc('\n', stream);
+    }
+}
+
+static void print_span(const struct accuracy_table *table, FILE *stream)
+{
+    fprintf(
+        stream,
+        "# errors: the largest at %d times up to %.6g s (%s), positions in mean radii (RMS), others relative\n",
+        ACCURACY_TIMES, table->span, table->span_reason);
+    fprintf(stream, "# references: %s; %s: they agree to %.1e", table->reference[0], table->reference[1],
+            table->agreement);
+    double best = INFINITY;
+    for (size_t i = 0; i < table->count; i++)
+        best = fmin(best, table->rows[i].error);
+    fprintf(stream, ", %.3g times better than the best row\n", best / table->agreement);
+    if (table->left_out)
+        fprintf(stream, "# left out: %zu rows with errors below what the references or rounding can tell\n",
+                table->left_out);
+}
+
+static void print_burst(const struct accuracy_table *table, FILE *stream)
+{
+    if (!isfinite(table->first_break))
+        return;
+    fprintf(stream, "# the first edge lets go at %.4g s: from there on single runs mean nothing\n",
+            table->first_break);
+    if (isfinite(table->burst_end))
+        fprintf(
+            stream,
+            "# burst: means over members that differ by 1e-9 radii at the start; its time is when one edge in a hundred "
+            "had let go, pieces are counted at %.4g s\n",
+            table->burst_end);
+}
+
+static void print_auto(const struct accuracy_table *table, FILE *stream)
+{
+    for (size_t i = 0; i < table->count; i++) {
+        const struct accuracy_row *row = &table->rows[i];
+        const struct integrator *fastest = NULL;
+        if (!row->method->choose)
+            continue;
+        const double seconds = accuracy_fastest(table, row->error, &fastest);
+        if (fastest)
+            fprintf(
+                stream,
+                "# auto at %s (%s): %.2f x the time of the fastest that is as good in steps up to time.step, %s\n",
+                row->setting, row->chose, row->seconds / seconds, fastest->name);
+    }
+}
+
+static void print_failure(const struct accuracy_failure *f, FILE *stream)
+{
+    fprintf(stream, "# failed: %s at %s%s%s: %s\n", f->method->name, f->first,
+            strcmp(f->first, f->last) ? " to " : "", strcmp(f->first, f->last) ? f->last : "", f->reason);
+}
+
+static void print_table(const struct accuracy_table *table, FILE *stream)
+{
+    print_rows(table, stream);
+    print_span(table, stream);
+    print_burst(table, stream);
+    print_auto(table, stream);
+    for (size_t i = 0; i < table->failure_count; i++)
+        print_failure(&table->failures[i], stream);
+}
+
+static enum status save_table(const struct accuracy_table *table, const char *path, struct error *err)
+{
+    struct file_out *out;
+    if (file_out_open(path, &out, err))
+        return err->status;
+    print_table(table, file_out_stream(out));
+    return file_out_commit(out, err);
+}
+
+static enum status save(const struct accuracy_table *table, const char *scene, const char *path,
+                        struct error *err)
+{
+    if (file_has_extension(path, "tsv"))
+        return save_table(table, path, err);
+    char *beside = strdup(path);
+    if (!beside)
+        return error_no_memory(err, path);
+    memcpy(beside + strlen(beside) - 3, "tsv", 3);
+    enum status status = save_table(table, beside, err);
+    free(beside);
+    return status ? status : price_plot(table, scene, path, err);
+}
+
+static bool go_on(void *context, double done)
+{
+    (void)context;
+    progress_update(100 * done);
+    return !interrupt_caught();
+}
+
+enum status price_accuracy(const struct scene *scene, const struct mesh *meshes, const char *path,
+                           struct error *err)
+{
+    enum { SECONDS = 60 };
+    const struct accuracy_options options = {.seconds = SECONDS, .go_on = go_on};
+    struct accuracy_table *table = calloc(1, sizeof *table);
+    if (!table)
+        return error_no_memory(err, "the table");
+    interrupt_watch();
+    progress_begin("pricing", "%", 100);
+    enum status status = accuracy_measure(scene, meshes, &options, table, err);
+    progress_end();
+    if (status == STATUS_INTERRUPTED && interrupt_caught() == SIGTERM)
+        err->status = status = STATUS_TERMINATED;
+    if (!status) {
+        print_table(table, stdout);
+        status = save(table, scene->path, path, err);
+    }
+    free(table);
+    return status;
+}
