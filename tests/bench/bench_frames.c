@@ -1,4 +1,5 @@
-/* What frames cost: a sphere of 3000 triangles whose skin thins, drawn and written, 400 stereo frames. */
+/* What frames cost: a sphere whose skin thins, drawn in each style and order, and 400 stereo frames of 3000 triangles
+ * written. */
 #include "render/frames.h"
 #include "render/render.h"
 
@@ -14,7 +15,7 @@ enum { FRAMES = 400, SAMPLES = 40 };
 
 struct scene {
     struct mesh mesh;
-    float *opacity, *shininess;
+    float *opacity, *shininess, *stretch;
     struct render_view view;
     struct render *render;
     struct image image;
@@ -31,21 +32,26 @@ static void draw(struct scene *scene, int i)
     for (uint32_t t = 0; t < scene->mesh.triangle_count; t++) {
         scene->opacity[t] = (float)(1 - 0.6 * part);
         scene->shininess[t] = (float)(100 * part);
+        scene->stretch[t] = (float)(1 + 4 * part);
     }
     struct render_skin skin = {.mesh = &scene->mesh,
                                .opacity = scene->opacity,
                                .shininess = scene->shininess,
+                               .stretch = scene->stretch,
+                               .rest_opacity = 0.97f,
+                               .rest_shininess = 12,
                                .colour = {0.7f, 0.035f, 0.04f}};
     bench_check(render_draw(scene->render, &scene->view, &skin, 1, &scene->image, &err), &err);
 }
 
-static void open_scene(struct scene *scene)
+static void open_scene(struct scene *scene, int rings, int sectors)
 {
     struct error err;
     const double lower[3] = {-1, -1, -1}, upper[3] = {1, 1, 1}, from[3] = {0.3, 0.25, 1};
-    *scene = (struct scene){.mesh = sphere_new(39, 40)};
+    *scene = (struct scene){.mesh = sphere_new(rings, sectors)};
     scene->opacity = calloc(scene->mesh.triangle_count, sizeof *scene->opacity);
     scene->shininess = calloc(scene->mesh.triangle_count, sizeof *scene->shininess);
+    scene->stretch = calloc(scene->mesh.triangle_count, sizeof *scene->stretch);
     scene->view = (struct render_view){.width = 1280,
                                        .height = 480,
                                        .stereo = RENDER_PARALLEL,
@@ -62,6 +68,7 @@ static void close_scene(struct scene *scene)
     image_clear(&scene->image);
     free(scene->opacity);
     free(scene->shininess);
+    free(scene->stretch);
     sphere_free(&scene->mesh);
 }
 
@@ -102,6 +109,33 @@ static void measure(struct scene *scene, const char *name, bool smooth, struct f
     fflush(stdout);
 }
 
+/* Every style and order, as live (smooth outlines or not) and as final frames (2 x 2 samples). */
+static void draw_all_ways(void)
+{
+    static const char *const styles[] = {"paper", "latex"}, *const orders[] = {"none", "sort", "peel",
+                                                                               "list"};
+    static const int sizes[][2] = {{39, 40}, {100, 101}};
+    printf("style\torder\tsamples\tsmooth\ttriangles\tdraw ms\n");
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        struct scene scene;
+        open_scene(&scene, sizes[i][0], sizes[i][1]);
+        for (int way = 0; way < 2 * 4 * 3; way++) {
+            const int samples = way / 8 + 1;
+            scene.view.style = way & 1 ? RENDER_LATEX : RENDER_PAPER;
+            scene.view.order = (enum render_order)(way >> 1 & 3);
+            scene.view.samples = samples == 3 ? 2 : 1;
+            scene.view.smooth_edges = samples == 2;
+            if (samples == 2 && scene.view.order > RENDER_SORT)
+                continue;
+            draw(&scene, 0);
+            printf("%s\t%s\t%d\t%d\t%u\t%.2f\n", styles[way & 1], orders[way >> 1 & 3], scene.view.samples,
+                   scene.view.smooth_edges, scene.mesh.triangle_count, draw_ms(&scene));
+            fflush(stdout);
+        }
+        close_scene(&scene);
+    }
+}
+
 static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *walk)
 {
     (void)info, (void)kind, (void)walk;
@@ -114,7 +148,8 @@ int main(void)
     if (!mkdtemp(folder) || chdir(folder))
         return 1;
     struct scene scene;
-    open_scene(&scene);
+    draw_all_ways();
+    open_scene(&scene, 39, 40);
     printf("400 stereo frames of 1280 x 480, %u triangles\n", scene.mesh.triangle_count);
     printf("written\tdraw ms\tencode ms\tall s\n");
     measure(&scene, "PNG", false, (struct frames_options){.folder = "f"});
