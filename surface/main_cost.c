@@ -52,36 +52,79 @@ static enum status save_table(const struct cost_table *table, const char *path, 
     return file_out_commit(out, err);
 }
 
-static enum status draw(const struct cost_table *table, const char *sculpture, const char *path,
-                        struct error *err)
+/* Where labels of a panel were put, by logarithms, in shares of the panel. */
+struct labels {
+    double x[COST_ROWS_MAX], y[COST_ROWS_MAX];
+    size_t count;
+    double low[2], width[2];
+};
+
+static double share_of(const struct labels *labels, int axis, double value)
 {
-    static double error[2][COST_ROWS_MAX], seconds[COST_ROWS_MAX];
-    static const char *label[COST_ROWS_MAX];
-    struct plot_series series[2][COST_DIALS];
+    return (log(value) - labels->low[axis]) / labels->width[axis];
+}
+
+static void measure_axis(struct labels *labels, int axis, const double *values, size_t count)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < count; i++)
+        if (values[i] > 0) {
+            low = fmin(low, log(values[i]));
+            high = fmax(high, log(values[i]));
+        }
+    labels->low[axis] = low;
+    labels->width[axis] = high > low ? high - low : 1;
+}
+
+/* Whether a label there would not lie on one that was put before; then it is put. */
+static bool put_label(struct labels *labels, double error, double seconds)
+{
+    const double wide = 0.15, high = 0.07; /* a label's size, as a share of what is drawn */
+    if (!(error > 0 && seconds > 0))
+        return false;
+    double x = share_of(labels, 0, error), y = share_of(labels, 1, seconds);
+    for (size_t i = 0; i < labels->count; i++)
+        if (fabs(x - labels->x[i]) < wide && fabs(y - labels->y[i]) < high)
+            return false;
+    labels->x[labels->count] = x;
+    labels->y[labels->count++] = y;
+    return true;
+}
+
+/* The curves of one panel; labels that would lie on others are left out. */
+static void make_series(const struct cost_table *table, const double *error, const double *seconds,
+                        const char **label, struct plot_series series[COST_DIALS])
+{
+    struct labels labels = {0};
+    measure_axis(&labels, 0, error, table->count);
+    measure_axis(&labels, 1, seconds, table->count);
     size_t row = 0;
     for (int dial = 0; dial < COST_DIALS; dial++) {
         size_t first = row;
-        for (; row < table->count && table->rows[row].dial == (enum cost_dial)dial; row++) {
-            error[0][row] = table->rows[row].rms;
-            error[1][row] = table->rows[row].volume;
-            seconds[row] = table->rows[row].seconds;
-            /* Cube sizes stand close: every other one is named. */
-            label[row] = dial == COST_CUBE_SIZE && row % 2 ? "" : table->rows[row].setting;
-        }
-        for (int i = 0; i < 2; i++)
-            series[i][dial] = (struct plot_series){.name = cost_dial_names[dial],
-                                                   .style = PLOT_CURVE,
-                                                   .x = &error[i][first],
-                                                   .y = &seconds[first],
-                                                   .label = &label[first],
-                                                   .count = row - first};
+        for (; row < table->count && table->rows[row].dial == (enum cost_dial)dial; row++)
+            label[row] = put_label(&labels, error[row], seconds[row]) ? table->rows[row].setting : "";
+        series[dial] = (struct plot_series){.name = cost_dial_names[dial],
+                                            .style = PLOT_CURVE,
+                                            .x = error + first,
+                                            .y = seconds + first,
+                                            .label = label + first,
+                                            .count = row - first};
     }
-<<<<<<< 35bc2a32d240cb92d6bd9916ef07c57dafdff06c
-    const struct plot_panel panels[] = {
-        {"distance from the surface", "RMS error, share of the extent", "seconds", true, true, series[0],
-         COST_DIALS, false},
-        {"volume", "relative error", "seconds", true, true, series[1], COST_DIALS, false}};
-=======
+}
+
+static enum status draw(const struct cost_table *table, const char *sculpture, const char *path,
+                        struct error *err)
+{
+    double error[2][COST_ROWS_MAX], seconds[COST_ROWS_MAX];
+    const char *label[2][COST_ROWS_MAX];
+    struct plot_series series[2][COST_DIALS];
+    for (size_t row = 0; row < table->count; row++) {
+        error[0][row] = table->rows[row].rms;
+        error[1][row] = table->rows[row].volume;
+        seconds[row] = table->rows[row].seconds;
+    }
+    for (int i = 0; i < 2; i++)
+        make_series(table, error[i], seconds, label[i], series[i]);
     const struct plot_panel panels[] = {{.title = "distance from the surface",
                                          .x_label = "RMS error, share of the extent",
                                          .y_label = "seconds",
@@ -96,7 +139,6 @@ static enum status draw(const struct cost_table *table, const char *sculpture, c
                                          .log_y = true,
                                          .series = series[1],
                                          .series_count = COST_DIALS}};
->>>>>>> origin/main
     const struct plot plot = {.title = sculpture, .panels = panels, .panel_count = 2, .columns = 2};
     return plot_save(&plot, path, err);
 }
