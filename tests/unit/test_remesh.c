@@ -188,19 +188,25 @@ static void a_flip_joins_the_two_points_across(void **state)
     assert_true(flipped > 0);
 }
 
+/* A neck 0 1 2 as above whose lower end has two points, 7 and 8: across 0 7 lie 1 and 2, which the neck joins. */
 static void a_flip_that_would_double_an_edge_is_refused(void **state)
 {
     (void)state;
-    struct remesh r = opened(octahedron());
-    const double place[3] = {1, 0, 0};
-    remesh_collapse(&r, 0, place, place);
-    /* A double pyramid: across each edge of its equator lie the tips, which have three neighbours; across each edge to
-     * a tip two points of the equator, which are joined already. */
-    for (uint32_t side = 0; side < 24; side++)
-        if (r.triangle[side / 3][0] != MESH_NONE &&
-            (r.degree[side_point(&r, side)] == 3 || r.degree[side_point(&r, side_next(side))] == 3))
-            assert_false(remesh_flip_allowed(&r, side));
-    assert_result(&r, 5, 6, 2);
+    static const uint32_t triangles[14][3] = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3},
+                                              {2, 3, 5}, {3, 4, 6}, {4, 5, 6}, {5, 3, 6}, {1, 0, 7},
+                                              {0, 2, 7}, {2, 1, 8}, {1, 7, 8}, {7, 2, 8}};
+    struct mesh mesh = {0};
+    struct error err = {0};
+    assert_ok(mesh_init(&mesh, 9, 14, true, &err), &err);
+    memset(mesh.position, 0, 9 * sizeof *mesh.position);
+    memset(mesh.normal, 0, 9 * sizeof *mesh.normal);
+    memcpy(mesh.triangle, triangles, sizeof triangles);
+    struct remesh r = opened(mesh);
+    assert_linked(&r);
+    assert_true(r.degree[0] > 3 && r.degree[7] > 3);
+    assert_false(remesh_flip_allowed(&r, 3 * 9 + 1));
+    assert_true(remesh_flip_allowed(&r, 3 * 0 + 2)); /* 4 0, with 1 and 3 across */
+    remesh_clear(&r);
 }
 
 static void a_mesh_with_a_hole_is_refused(void **state)
