@@ -125,6 +125,8 @@ struct scene_balloon {
     double radius;      /* mean distance of the points from their centre; 0: as the mesh has it */
     double position[3]; /* of that centre */
     double point_mass, spring, spring_factor, damping;
+    int stiffness;             /* enum scene_stiffness */
+    int threshold_of;          /* enum scene_threshold_of */
     double threshold;          /* an edge lets go at this length over the mean rest length */
     double pressure;           /* force on each point, or on each unit of area */
     int pressure_on;           /* enum scene_pressure_on */
@@ -205,6 +207,8 @@ extern const char *const scene_squeezed_names[];
 extern const char *const scene_style_names[];
 extern const char *const scene_order_names[];
 extern const char *const scene_shape_names[];
+extern const char *const scene_stiffness_names[];
+extern const char *const scene_threshold_of_names[];
 extern const char *const scene_law_names[];
 enum { SCENE_SYMPLECTIC_EULER }; /* the first of the integrators: the paper's */
 enum scene_guard { SCENE_GUARD_SUBSTEP, SCENE_GUARD_REFUSE, SCENE_GUARD_OFF };
@@ -213,6 +217,8 @@ enum scene_pressure_on { SCENE_ON_POINTS, SCENE_ON_AREAS };
 enum scene_process { SCENE_ISOTHERMAL, SCENE_ADIABATIC };
 enum scene_style { SCENE_LATEX, SCENE_PAPER };
 enum scene_order { SCENE_ORDER_NONE, SCENE_ORDER_SORT, SCENE_ORDER_PEEL, SCENE_ORDER_LIST };
+enum scene_stiffness { SCENE_UNIFORM, SCENE_COTANGENT };
+enum scene_threshold_of { SCENE_OF_MEAN, SCENE_OF_EDGE };
 enum scene_law { SCENE_NEO_HOOKEAN, SCENE_MOONEY_RIVLIN, SCENE_GENT, SCENE_OGDEN };
 enum scene_stereo {
     SCENE_MONO,

@@ -27,6 +27,8 @@ const char *const scene_squeezed_names[] = {"no", "yes", NULL};
 const char *const scene_shape_names[] = {"sphere", "box", NULL};
 const char *const scene_style_names[] = {"latex", "paper", NULL};
 const char *const scene_order_names[] = {"none", "sort", "peel", "list", NULL};
+const char *const scene_stiffness_names[] = {"uniform", "cotangent", NULL};
+const char *const scene_threshold_of_names[] = {"mean", "edge", NULL};
 const char *const scene_law_names[] = {"neo-hookean", "mooney-rivlin", "gent", "ogden", NULL};
 
 #define CHOICES_NUMBER(key) NULL

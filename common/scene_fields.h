@@ -52,11 +52,15 @@
     X(position, VECTOR, -1e6, 1e6, "[0.0, 0.0, 0.0]", "length", 0, "of that centre", "")                  \
     X(point_mass, NUMBER, 1e-9, 1e9, "0.11", "mass", 0, "of each point", "paper 3.1")                     \
     X(spring, NUMBER, 0, 1e9, "20", "force/length", 0, "spring constant of each edge", "paper 4")         \
+    X(stiffness, CHOICE, 0, 0, "\"uniform\"", "", 0,                                                      \
+      "of the springs: all alike, or as a uniform sheet has it", "Pinkall and Polthier 1993")             \
     X(spring_factor, NUMBER, 0, 1e6, "1", "", LIVE, "the spring constants' weight", "paper 3.5")          \
     X(damping, NUMBER, 0, 1e9, "1", "force s/length", LIVE, "against the speed of closing along an edge", \
       "paper 2")                                                                                          \
-    X(threshold, NUMBER, 1, 1e300, "2", "", LIVE,                                                         \
-      "an edge lets go at this length over the mean rest length", "paper 4")                              \
+    X(threshold_of, CHOICE, 0, 0, "\"mean\"", "", 0,                                                      \
+      "whose rest length the threshold is over: that of the mean edge, or each edge's own", "paper 3.5")  \
+    X(threshold, NUMBER, 1, 1e300, "2", "", LIVE, "an edge lets go at this length over the rest length",  \
+      "paper 4")                                                                                          \
     X(pressure, NUMBER, -1e9, 1e9, "10", "force", LIVE, "on each point, along its normal", "paper 3.2")   \
     X(pressure_on, CHOICE, 0, 0, "\"points\"", "", 0,                                                     \
       "points: it pushes each alike, along its normal; areas: it is a force/length^2", "paper 3.2")       \

@@ -217,6 +217,21 @@ static double sum_volume(const struct sim *sim, uint32_t begin, uint32_t end, co
     return (double)(sum[0] + sum[1] + sum[2]);
 }
 
+/* The same where each edge's threshold is its own rest length's. */
+static uint32_t count_overlong_of_their_own(const struct sim *sim, const struct sim_part *part, real limit)
+{
+    const row *position = sim->rows.position;
+    const uint32_t(*point)[2] = (const uint32_t(*)[2])sim->edge_point;
+    const double *rest = sim->rest_length;
+    uint32_t count = 0;
+    for (uint32_t e = part->edge_begin; e < part->edge_end; e++) {
+        const row l = position[point[e][0]] - position[point[e][1]];
+        if (dot(l, l) > limit * (real)(rest[e] * rest[e]))
+            count += sim->edge_active[e];
+    }
+    return count;
+}
+
 /* Part 2: "check if the length of the edge is greater than the threshold value". */
 static uint32_t count_overlong(const struct sim *sim, const struct sim_part *part)
 {
@@ -226,6 +241,8 @@ static uint32_t count_overlong(const struct sim *sim, const struct sim_part *par
     const real limit = (real)(part->balloon->now->threshold_length * part->balloon->now->threshold_length);
     const uint32_t end = part->edge_end;
     uint32_t count = 0;
+    if (part->balloon->own_thresholds)
+        return count_overlong_of_their_own(sim, part, limit);
     for (uint32_t e = part->edge_begin; e < end; e++) {
         const row l = position[point[e][0]] - position[point[e][1]];
         if (dot(l, l) > limit)

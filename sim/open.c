@@ -175,10 +175,13 @@ static enum status fill_balloon(struct sim *sim, struct sim_balloon *b, const st
         place_points(sim, b, mesh);
         make_springs(sim, b, mesh, &places);
         copy_triangles(sim, b, mesh, &places);
+        if (b->scene->stiffness == SCENE_COTANGENT)
+            springs_by_cotangent(sim, b);
+        b->own_thresholds = b->scene->threshold_of == SCENE_OF_EDGE;
         *b->now = (struct sim_settings){b->scene->spring_factor,
                                         b->scene->damping,
                                         b->scene->pressure,
-                                        b->scene->threshold * b->mean_rest_length,
+                                        b->scene->threshold * (b->own_thresholds ? 1 : b->mean_rest_length),
                                         0,
                                         {0}};
     }

@@ -24,7 +24,7 @@ static void change_balloon(struct sim *sim, struct sim_balloon *balloon, const c
     } else if (!strcmp(key, "damping") && !balloon->membrane) {
         balloon->now->damping = value;
     } else if (!strcmp(key, "threshold")) {
-        balloon->now->threshold_length = value * balloon->mean_rest_length;
+        balloon->now->threshold_length = value * (balloon->own_thresholds ? 1 : balloon->mean_rest_length);
     } else if (!strcmp(key, "spring_factor")) {
         change_springs(sim, balloon, value);
     }

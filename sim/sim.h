@@ -48,9 +48,11 @@ struct sim_balloon {
     uint32_t point_begin, point_end;
     uint32_t edge_begin, edge_end;
     uint32_t triangle_begin, triangle_end;
-    double centre[3];          /* of its points, at rest */
-    double radius;             /* mean distance of its points from that centre, at rest */
-    double mean_rest_length;   /* of its edges */
+    double centre[3];        /* of its points, at rest */
+    double radius;           /* mean distance of its points from that centre, at rest */
+    double mean_rest_length; /* of its edges */
+    bool
+        own_thresholds; /* an edge's threshold is over its own rest length: the settings' is that of an edge of length 1 */
     double breathing_rate;     /* 1/s, for errors of speeds (weights.h) */
     struct sim_settings *now;  /* one of sim->settings */
     bool by_area;              /* pressure acts on areas, not on each point alike */
@@ -349,6 +351,12 @@ void sim_each_part(struct sim *sim,
 /* Of an active edge its length now; of a broken one that when it broke. */
 double sim_edge_length(const struct sim *sim, uint32_t edge);
 
+/* The length at which it lets go. */
+static inline double sim_threshold(const struct sim *sim, const struct sim_balloon *balloon, uint32_t edge)
+{
+    return balloon->now->threshold_length * (balloon->own_thresholds ? sim->rest_length[edge] : 1);
+}
+
 /* What an edge's spring holds: k_s (|l| - r)^2 / 2. */
 static inline double sim_spring_energy(const struct sim *sim, uint32_t edge)
 {
@@ -413,6 +421,11 @@ bool sim_at_end(const struct sim *sim);
  * edges and triangles those are active that were so during the step: what let go did so at its end. */
 void sim_look(struct sim *sim, double time);
 void sim_look_end(struct sim *sim);
+
+/* Spring constants in proportion to the cotangents of the two angles across an edge at rest, so that an irregular mesh is stretched evenly by
+ * an even pull, as a uniform sheet is (Pinkall and Polthier, Experimental Mathematics 2, 1993): the forces at a point are
+ * sum k (L - 1) r u = (L - 1) sum k (x_q - x_p), which are 0 for these k in any flat mesh. 0 where the sum is negative. */
+void springs_by_cotangent(struct sim *sim, const struct sim_balloon *balloon);
 
 /* Orders edges and triangles by their points and shares out the points among the workers (parts.c). edge_place[i] becomes
  * where edge i of the mesh goes, from 0 on; triangle_place likewise. */

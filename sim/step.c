@@ -64,7 +64,7 @@ static void break_edges(struct sim *sim)
     for (size_t i = 0; i < sim->part_count; i++) {
         const struct sim_part *part = &sim->parts[i];
         for (uint32_t e = part->edge_begin; e < part->edge_end && sim->overlong[i]; e++)
-            if (sim->edge_active[e] && sim_edge_length(sim, e) > part->balloon->now->threshold_length)
+            if (sim->edge_active[e] && sim_edge_length(sim, e) > sim_threshold(sim, part->balloon, e))
                 sim_break_edge(sim, e);
     }
 }
