@@ -4,15 +4,12 @@
 #include <GL/osmesa.h>
 #include <stdlib.h>
 
-struct context {
-    OSMesaContext osmesa;
+struct osmesa {
+    OSMesaContext context;
     unsigned char pixel[4]; /* OSMesa insists on a picture of its own */
 };
 
-/* OSMesaGetCurrentContext() also gives those of others: OSMesa and the GLX of windows share what is current. */
-static _Thread_local bool in_use;
-
-enum status context_open(struct context **result, struct error *err)
+static enum status open_osmesa(void **result, struct error *err)
 {
     const int wanted[] = {OSMESA_FORMAT,
                           OSMESA_RGBA,
@@ -23,57 +20,49 @@ enum status context_open(struct context **result, struct error *err)
                           OSMESA_CONTEXT_MINOR_VERSION,
                           3,
                           0};
-    struct context *context = calloc(1, sizeof *context);
-    if (!context)
+    struct osmesa *own = calloc(1, sizeof *own);
+    if (!own)
         return error_no_memory(err, "the OpenGL context");
-    context->osmesa = OSMesaCreateContextAttribs(wanted, NULL);
-    if (!context->osmesa) {
-        free(context);
+    own->context = OSMesaCreateContextAttribs(wanted, NULL);
+    if (!own->context) {
+        free(own);
         return error_set(err, STATUS_RESOURCE,
                          "OSMesa gives no OpenGL 3.3 context; Mesa 13 or later is needed");
     }
-    enum status status = context_use(context, err);
-    if (status) {
-        context_close(context);
-        return status;
-    }
-    *result = context;
+    *result = own;
     return STATUS_OK;
 }
 
-enum status context_use(struct context *context, struct error *err)
+static enum status use_osmesa(void *context, struct error *err)
 {
-    if (OSMesaGetCurrentContext() == context->osmesa)
-        return STATUS_OK;
-    if (!OSMesaMakeCurrent(context->osmesa, context->pixel, GL_UNSIGNED_BYTE, 1, 1))
+    struct osmesa *own = context;
+    if (!OSMesaMakeCurrent(own->context, own->pixel, GL_UNSIGNED_BYTE, 1, 1))
         return error_set(err, STATUS_RESOURCE, "OSMesa cannot make its context current");
-    in_use = true;
     return STATUS_OK;
 }
 
-bool context_leave(void)
+static bool osmesa_is_current(const void *context)
 {
-    bool was_in_use = in_use;
-    if (in_use)
-        OSMesaMakeCurrent(NULL, NULL, GL_UNSIGNED_BYTE, 0, 0);
-    in_use = false;
-    return was_in_use;
+    const struct osmesa *own = context;
+    return OSMesaGetCurrentContext() == own->context;
 }
 
-void context_close(struct context *context)
+static void leave_osmesa(void *context)
 {
-    if (!context)
-        return;
-    if (OSMesaGetCurrentContext() == context->osmesa)
-        context_leave();
-    OSMesaDestroyContext(context->osmesa);
-    free(context);
+    (void)context;
+    OSMesaMakeCurrent(NULL, NULL, GL_UNSIGNED_BYTE, 0, 0);
 }
 
-void (*context_function(const char *name))(void)
+static void close_osmesa(void *context)
 {
-    return OSMesaGetProcAddress(name);
+    struct osmesa *own = context;
+    OSMesaDestroyContext(own->context);
+    free(own);
 }
+
+const struct context_backend context_osmesa = {
+    "osmesa", open_osmesa, use_osmesa, osmesa_is_current, leave_osmesa, close_osmesa, OSMesaGetProcAddress,
+};
 
 /* OSMesa keeps a few hundred bytes for each context that it never frees. A build with the address sanitizer
  * is told not to count them; our own leaks it still reports. */
