@@ -32,6 +32,7 @@ struct walk {
     struct surface_options base,
         exact; /* with a cube size; and with the exact field, cut off as far as can be */
     struct cost_table *table;
+    bool own;                        /* the exact field has no surface: `exact` has the options' own fields */
     double area, volume;             /* of an infinitely fine mesh */
     double exact_area, exact_volume; /* of the exact field's mesh */
     int done;
@@ -128,7 +129,7 @@ static void extrapolate(struct walk *w)
 
 static enum status walk_fields(struct walk *w, struct error *err)
 {
-    for (int i = 0; i < FIELDS; i++) {
+    for (int i = 0; i < FIELDS && !w->own; i++) {
         struct surface_options options = w->exact;
         struct cost_row row = {.dial = COST_FIELDS, .step = 1.0 / field_sides[i]};
         options.field.fields_per_cube = (long)field_sides[i] * field_sides[i] * field_sides[i];
@@ -223,6 +224,11 @@ static enum status begin(struct walk *w, const struct surface_options *options, 
     w->exact.field.fields_per_cube = FIELDS_EXACT;
     w->exact.field.cutoff = 8;
     enum status status = make(w, &w->exact, &mesh, &row, err);
+    if (status == STATUS_INPUT || status == STATUS_RANGE) {
+        w->own = true;
+        w->exact.field.fields_per_cube = options->field.fields_per_cube;
+        status = make(w, &w->exact, &mesh, &row, err);
+    }
     w->exact_area = row.area;
     w->exact_volume = row.volume;
     mesh_clear(&mesh);

@@ -12,7 +12,9 @@
  * infinitely fine mesh, by Richardson's extrapolation from the two finest that are an octave apart, of second order.
  *
  * Fields per cube and cut-off move the surface itself: the distance of the mesh's points from the surface of the exact
- * field with the widest cut-off, and area and volume against a mesh of that one with the same cubes.
+ * field with the widest cut-off, and area and volume against a mesh of that one with the same cubes. Where the exact
+ * field does not reach the threshold (one wide Gaussian a cube does), the fields per cube are not walked, and cut-offs
+ * are compared with the options' own fields.
  */
 #ifndef SURFACE_COST_H
 #define SURFACE_COST_H

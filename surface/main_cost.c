@@ -37,9 +37,12 @@ void cost_print(const struct cost_table *table, FILE *stream)
     fprintf(stream, "# order in the cube size: %.2f%s\n", order,
             order > 1.8 ? ""
                         : " (2 in the limit: the coarse cubes do not resolve the sculpture's detail yet)");
-    fprintf(stream,
-            "# order in the fields' spacing: %.2f; cut-off: faster than any power; relaxation: none\n",
-            table->order[COST_FIELDS]);
+    if (isfinite(table->order[COST_FIELDS]))
+        fprintf(stream, "# order in the fields' spacing: %.2f", table->order[COST_FIELDS]);
+    else
+        fprintf(stream,
+                "# order in the fields' spacing: not walked, the exact field does not reach the threshold");
+    fprintf(stream, "; cut-off: faster than any power; relaxation: none\n");
     print_advice(table, stream);
 }
 

@@ -27,6 +27,15 @@ one_message
 stdout_has '^relax'
 only_files cube.oct cost.tsv
 
+# One Gaussian in the basic cube, whose exact field would not reach the threshold: the other dials are priced.
+echo 'depth 0' >one.chips
+expect 0 balloon-sculpt --script one.chips -o one.oct
+expect 0 balloon-surface one.oct --fields-per-cube 1 --sigma 0.4 --cube-size 0.1 --accuracy-cost cost.tsv
+stdout_has '^cutoff.4'
+if grep -q '^fields-per-cube' .stdout; then fail "fields per cube cannot be priced here"; fi
+stdout_has "^# order in the fields' spacing: not walked"
+rm one.chips one.oct
+
 # A folder that cannot be written to is told of before the long work: no table is printed.
 refused 1 'no/such/cost\.tsv: cannot create' balloon-surface cube.oct --accuracy-cost no/such/cost.tsv
 refused 1 '/proc/cost\.tsv: cannot create' balloon-surface cube.oct --accuracy-cost /proc/cost.png
