@@ -34,7 +34,7 @@ static void make_balls(struct octree *tree, unsigned depth, int count)
                     bench_check(octree_set(tree, x, y, z, 1, &err), &err);
 }
 
-/* Marching cubes alone: relaxation has its own benchmark. */
+/* Marching cubes alone: relaxation has its own table. */
 static struct surface_options plain(void)
 {
     struct surface_options options = surface_defaults();
@@ -43,10 +43,19 @@ static struct surface_options plain(void)
 }
 
 struct figures {
-    double seconds, cube_size;
+    double seconds, cube_size, angle_deg;
     uint32_t triangles;
     struct surface_stats stats;
 };
+
+static double smallest_angle(struct mesh *mesh)
+{
+    struct error err = {0};
+    struct surface_shape shape;
+    bench_check(mesh_connect(mesh, &err), &err);
+    bench_check(surface_measure(mesh, &shape, &err), &err);
+    return shape.smallest_angle_deg;
+}
 
 /* Repeats until a tenth of a second is spent and takes the best. */
 static struct figures best_of(const struct octree *tree, const struct surface_options *options, int turns)
@@ -60,6 +69,8 @@ static struct figures best_of(const struct octree *tree, const struct surface_op
         bench_check(surface_make(tree, options, &mesh, &best.stats, &err), &err);
         best.seconds = fmin(best.seconds, bench_seconds() - start);
         best.triangles = mesh.triangle_count;
+        if (turn == 0)
+            best.angle_deg = smallest_angle(&mesh);
         mesh_clear(&mesh);
     }
     return best;
@@ -142,12 +153,38 @@ static void measure_growth(const struct octree *tree)
     printf("seconds grow with 1 / cube size to the power %.2f\n", (n * xy - x * y) / (n * xx - x * x));
 }
 
+/* What relaxation adds: with it and without, on one processor and on two; in us a triangle, on one. */
+static void measure_relaxation(const struct octree *tree, double most)
+{
+    printf("\n%9s %9s %9s %9s %9s %9s %9s %8s\n", "triangles", "plain", "on two", "relaxed", "on two",
+           "us a t", "bytes a t", "degrees");
+    for (double wanted = 6e3; wanted <= most; wanted *= 8) {
+        struct figures figures[2][2];
+        struct surface_options options = plain();
+        options.field.sigma = 1;
+        options.cube_size = size_for(tree, wanted);
+        for (int relaxed = 0; relaxed < 2; relaxed++)
+            for (unsigned threads = 1; threads <= 2; threads++) {
+                options.relax = relaxed ? surface_defaults().relax : 0;
+                options.threads = threads;
+                figures[relaxed][threads - 1] = best_of(tree, &options, 2);
+            }
+        double added = figures[1][0].seconds - figures[0][0].seconds;
+        printf("%9u %9.4f %9.4f %9.4f %9.4f %9.2f %9.0f %8.1f\n", figures[1][0].triangles,
+               figures[0][0].seconds, figures[0][1].seconds, figures[1][0].seconds, figures[1][1].seconds,
+               1e6 * added / figures[1][0].triangles,
+               (double)figures[1][0].stats.bytes / figures[1][0].triangles, figures[1][0].angle_deg);
+        fflush(stdout);
+    }
+}
+
 static void measure_file(const char *path)
 {
     struct octree tree = {0};
     struct error err = {0};
     bench_check(octree_load(path, &tree, &err), &err);
     measure_sizes(strrchr(path, '/') ? strrchr(path, '/') + 1 : path, &tree);
+    measure_relaxation(&tree, 1e6);
     octree_clear(&tree);
 }
 
@@ -174,6 +211,7 @@ int main(int argc, char **argv)
     octree_clear(&tree);
     make_balls(&tree, 4, 8);
     measure_growth(&tree);
+    measure_relaxation(&tree, 4e6);
     octree_clear(&tree);
     return 0;
 }
