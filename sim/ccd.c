@@ -34,8 +34,9 @@ static void weigh_triangle(double x[4][3], double weight[4])
         c = (d4 - d3) / ((d4 - d3) + (d5 - d6));
         b = 1 - c;
     } else {
-        b = vb / (va + vb + vc);
-        c = vc / (va + vb + vc);
+        const double sum = va + vb + vc;
+        b = sum > 0 ? vb / sum : 0;
+        c = sum > 0 ? vc / sum : 0;
     }
     weight[0] = 1;
     weight[1] = b + c - 1;

@@ -32,11 +32,10 @@ struct contact {
     /* What the list was made for; the state, since other lists could find other touches first. */
     double (*from)[4], (*to)[4]; /* [point_count] owned */
     struct contact_memory {
-        uint64_t made;            /* lists made so far */
-        uint64_t made_in;         /* the step, from 1 */
-        uint64_t is_awake;        /* 1: the last step had pairs to look at */
-        uint64_t wakes, zones;    /* so far: wakes; steps that needed a rigid zone */
-        double woke_at, slept_at; /* s */
+        uint64_t made;         /* lists made so far */
+        uint64_t made_in;      /* the step, from 1 */
+        uint64_t is_awake;     /* 1: the last step had pairs to look at */
+        uint64_t wakes, zones; /* so far: wakes; steps that needed a rigid zone */
     } memory;
     uint64_t listed;       /* memory.made of the list at hand; another number: to be made again */
     uint32_t owned_broken; /* sim->broken when `owned` was found; UINT32_MAX: not yet */

@@ -193,9 +193,9 @@ static void note_awake(struct sim *sim)
     const bool awake = sim->contact->pair_count > 0;
     if (awake && !memory->is_awake) {
         memory->wakes++;
-        memory->woke_at = sim->time;
+        sim_tell(sim, sim->balloons, "contact", "wakes: skins come near each other");
     } else if (!awake && memory->is_awake) {
-        memory->slept_at = sim->time;
+        sim_tell(sim, sim->balloons, "contact", "sleeps: nothing is near anything");
     }
     memory->is_awake = awake;
 }

@@ -1,0 +1,265 @@
+/* Skins that keep apart: against a look at all pairs, at the end of every step of scenes that fold, squeeze and collide. */
+#include "../unit/balloon.h"
+#include "common/random.h"
+#include "crossings.h"
+#include "sim/contact.h"
+
+/* One or two balloons (the second NULL), icospheres of this level. */
+struct scene_of_two {
+    struct scene scene;
+    struct mesh mesh[2];
+    struct sim sim;
+};
+
+static void open_scene(struct scene_of_two *s, unsigned level, unsigned workers, const char *const *changes)
+{
+    struct error err = {0};
+    *s = (struct scene_of_two){0};
+    assert_ok(scene_from_mesh("sphere", &s->scene, &err), &err);
+    for (; *changes; changes++)
+        assert_ok(scene_set(&s->scene, *changes, &err), &err);
+    assert_ok(scene_check(&s->scene, &err), &err);
+    for (size_t i = 0; i < s->scene.balloon_count; i++)
+        shape_icosphere(level, &s->mesh[i]);
+    assert_ok(sim_open(&s->sim, &s->scene, s->mesh, workers, &err), &err);
+}
+
+static void close_scene(struct scene_of_two *s)
+{
+    sim_clear(&s->sim);
+    for (int i = 0; i < 2; i++)
+        mesh_clear(&s->mesh[i]);
+    scene_clear(&s->scene);
+}
+
+/* Sucked empty, with a swirl that breaks its symmetry. */
+#define FOLDING                                                                               \
+    SETTINGS("contact.thickness=0.5", "balloons[0].pressure=-4", "balloons[0].threshold=100", \
+             "time.guard=substep", "time.step=0.0125")
+/* Thrown at each other. */
+#define COLLIDING                                                                                  \
+    SETTINGS("contact.thickness=0.5", "balloons[1].mesh=sphere", "balloons[0].position=[-60,0,0]", \
+             "balloons[1].position=[60,3,2]", "balloons[0].pressure=0", "balloons[1].pressure=0",  \
+             "balloons[0].threshold=100", "balloons[1].threshold=100", "time.guard=substep",       \
+             "time.step=0.0125")
+/* Between two boxes that leave it less room than it wants. */
+#define SQUEEZED                                                                                         \
+    SETTINGS("contact.thickness=0.5", "balloons[0].threshold=100", "balloons[0].pressure=6",             \
+             "time.guard=substep", "obstacles[0].shape=box", "obstacles[0].size=[400,40,400]",           \
+             "obstacles[0].place=[0,-70,0]", "obstacles[1].shape=box", "obstacles[1].size=[400,40,400]", \
+             "obstacles[1].place=[0,70,0]", "time.step=0.0125")
+
+static void swirl(struct sim *sim, double speed)
+{
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        for (int i = 0; i < 3; i++)
+            sim->velocity[p][i] = speed * sin(sim->position[p][(i + 1) % 3] / 8 + i);
+}
+
+static void throw(struct sim * sim, double speed)
+{
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        sim->velocity[p][0] = sim->position[p][0] < 0 ? speed : -speed;
+}
+
+static void check_steps(struct sim *sim, int steps)
+{
+    struct error err = {0};
+    for (int i = 0; i < steps; i++) {
+        assert_ok(sim_step(sim, &err), &err);
+        assert_int_equal(crossings_count(sim), 0);
+    }
+}
+
+static void test_a_folding_balloon_never_crosses_itself(void **state)
+{
+    (void)state;
+    struct scene_of_two s;
+    open_scene(&s, 2, 1, FOLDING);
+    swirl(&s.sim, 3);
+    check_steps(&s.sim, 200);
+    assert_true(s.sim.contact->memory.wakes > 0);
+    close_scene(&s);
+}
+
+/* Or else the tests that find no crossing would prove nothing. */
+static void test_without_contact_it_crosses_itself(void **state)
+{
+    (void)state;
+    struct scene_of_two s;
+    struct error err = {0};
+    open_scene(&s, 2, 1, FOLDING + 1);
+    swirl(&s.sim, 3);
+    for (int i = 0; i < 200; i++)
+        assert_ok(sim_step(&s.sim, &err), &err);
+    assert_true(crossings_count(&s.sim) > 0);
+    assert_null(s.sim.contact);
+    close_scene(&s);
+}
+
+static void test_a_squeezed_balloon_never_crosses_itself_nor_enters_the_boxes(void **state)
+{
+    (void)state;
+    struct scene_of_two s;
+    open_scene(&s, 2, 1, SQUEEZED);
+    check_steps(&s.sim, 150);
+    close_scene(&s);
+}
+
+/* No force acts from outside: what the two have together stays, to the rounding of some 1e5 impulses. */
+static void test_two_balloons_thrown_together_keep_apart_and_keep_their_momentum(void **state)
+{
+    (void)state;
+    struct scene_of_two s;
+    double before[3] = {0}, after[3] = {0}, most = 0;
+    open_scene(&s, 2, 1, COLLIDING);
+    throw(&s.sim, 60);
+    for (uint32_t p = 0; p < s.sim.point_count; p++)
+        for (int i = 0; i < 3; i++) {
+            before[i] += s.sim.mass[p] * s.sim.velocity[p][i];
+            most += s.sim.mass[p] * fabs(s.sim.velocity[p][i]);
+        }
+    check_steps(&s.sim, 120);
+    for (uint32_t p = 0; p < s.sim.point_count; p++)
+        for (int i = 0; i < 3; i++)
+            after[i] += s.sim.mass[p] * s.sim.velocity[p][i];
+    for (int i = 0; i < 3; i++)
+        assert_near(after[i], before[i], 1e-11 * most);
+    assert_true(s.sim.contact->memory.wakes > 0);
+    assert_int_equal(s.sim.contact->memory.zones, 0);
+    close_scene(&s);
+}
+
+static uint64_t hash_after(unsigned workers, const char *const *changes, int steps)
+{
+    struct scene_of_two s;
+    struct error err = {0};
+    open_scene(&s, 3, workers, changes);
+    swirl(&s.sim, 3);
+    for (int i = 0; i < steps; i++)
+        assert_ok(sim_step(&s.sim, &err), &err);
+    const uint64_t hash = sim_hash(&s.sim);
+    close_scene(&s);
+    return hash;
+}
+
+static void test_any_number_of_threads_comes_to_the_same_bits(void **state)
+{
+    (void)state;
+    const uint64_t one = hash_after(1, FOLDING, 130);
+    assert_int_equal(hash_after(2, FOLDING, 130), one);
+    assert_int_equal(hash_after(5, FOLDING, 130), one);
+}
+
+/* The list is made anew from the blocks where a state comes back: it goes on with the same bits. */
+static void test_a_state_that_is_put_back_goes_on_the_same(void **state)
+{
+    (void)state;
+    struct scene_of_two s;
+    struct error err = {0};
+    struct sim_block blocks[SIM_BLOCKS_MAX];
+    unsigned char *kept[SIM_BLOCKS_MAX];
+    open_scene(&s, 2, 1, FOLDING);
+    swirl(&s.sim, 3);
+    check_steps(&s.sim, 120);
+    const size_t count = sim_blocks(&s.sim, blocks);
+    for (size_t i = 0; i < count; i++) {
+        kept[i] = malloc(blocks[i].size + 1);
+        memcpy(kept[i], blocks[i].data, blocks[i].size);
+    }
+    for (int i = 0; i < 30; i++)
+        assert_ok(sim_step(&s.sim, &err), &err);
+    const uint64_t hash = sim_hash(&s.sim);
+    for (size_t i = 0; i < count; i++) {
+        memcpy(blocks[i].data, kept[i], blocks[i].size);
+        free(kept[i]);
+    }
+    for (int i = 0; i < 30; i++)
+        assert_ok(sim_step(&s.sim, &err), &err);
+    assert_int_equal(sim_hash(&s.sim), hash);
+    close_scene(&s);
+}
+
+static void test_nothing_near_changes_no_bit_and_sleeps(void **state)
+{
+    (void)state;
+    struct scene_of_two with, without;
+    open_scene(&with, 3, 1, SETTINGS("contact.friction=0.3"));
+    open_scene(&without, 3, 1, SETTINGS());
+    check_steps(&with.sim, 1);
+    struct error err = {0};
+    for (int i = 0; i < 30; i++)
+        assert_ok(sim_step(&with.sim, &err), &err);
+    for (int i = 0; i < 31; i++)
+        assert_ok(sim_step(&without.sim, &err), &err);
+    assert_memory_equal(with.sim.position, without.sim.position,
+                        with.sim.point_count * sizeof *with.sim.position);
+    assert_int_equal(with.sim.contact->memory.wakes, 0);
+    assert_int_equal(with.sim.contact->pair_count, 0);
+    close_scene(&with);
+    close_scene(&without);
+}
+
+/* A point through a triangle, edge over edge, by ways of every length and tilt: whenever a fine march along the ways sees the distance fall
+ * under the gap, ccd_meet() says so, and before that time. */
+static void test_a_meeting_is_never_missed(void **state)
+{
+    (void)state;
+    uint64_t random = 3;
+    int met = 0;
+    for (int i = 0; i < 20000; i++) {
+        double from[4][3], to[4][3], x[4][3];
+        struct ccd_touch touch, other;
+        const enum ccd_kind kind = i % 2 ? CCD_EDGES : CCD_POINT_TRIANGLE;
+        for (int k = 0; k < 12; k++) {
+            from[k / 3][k % 3] = random_unit(&random);
+            to[k / 3][k % 3] = i % 3 ? random_unit(&random) : from[k / 3][k % 3] + 0.2 * random_unit(&random);
+        }
+        const double gap = ccd_distance(kind, from, &touch) / 2;
+        const bool meets = ccd_meet(kind, from, to, gap, &touch);
+        double first = INFINITY;
+        for (int step = 0; step <= 200 && first > 1; step++) {
+            for (int k = 0; k < 12; k++)
+                x[k / 3][k % 3] = from[k / 3][k % 3] + step / 200.0 * (to[k / 3][k % 3] - from[k / 3][k % 3]);
+            if (ccd_distance(kind, x, &other) <= gap)
+                first = step / 200.0;
+        }
+        met += first <= 1;
+        if (first <= 1)
+            assert_true(meets && touch.time <= first);
+    }
+    assert_true(met > 1000);
+}
+
+static void test_balloons_that_cross_at_first_are_refused(void **state)
+{
+    (void)state;
+    struct scene_of_two s = {0};
+    struct error err = {0};
+    assert_ok(scene_from_mesh("sphere", &s.scene, &err), &err);
+    for (const char *const *change = COLLIDING; *change; change++)
+        assert_ok(scene_set(&s.scene, *change, &err), &err);
+    assert_ok(scene_set(&s.scene, "balloons[1].position=[0,3,2]", &err), &err);
+    assert_ok(scene_check(&s.scene, &err), &err);
+    for (int i = 0; i < 2; i++)
+        shape_icosphere(2, &s.mesh[i]);
+    assert_refused(sim_open(&s.sim, &s.scene, s.mesh, 1, &err), STATUS_INPUT, "cross before the first step",
+                   &err);
+    close_scene(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_meeting_is_never_missed),
+        cmocka_unit_test(test_a_folding_balloon_never_crosses_itself),
+        cmocka_unit_test(test_without_contact_it_crosses_itself),
+        cmocka_unit_test(test_a_squeezed_balloon_never_crosses_itself_nor_enters_the_boxes),
+        cmocka_unit_test(test_two_balloons_thrown_together_keep_apart_and_keep_their_momentum),
+        cmocka_unit_test(test_any_number_of_threads_comes_to_the_same_bits),
+        cmocka_unit_test(test_a_state_that_is_put_back_goes_on_the_same),
+        cmocka_unit_test(test_nothing_near_changes_no_bit_and_sleeps),
+        cmocka_unit_test(test_balloons_that_cross_at_first_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
