@@ -1,6 +1,5 @@
 #include "sim/live.h"
 #include "common/scene_fields.h"
-#include "common/vec3.h"
 #include "sim/guard.h"
 
 #include <math.h>
@@ -20,33 +19,16 @@ static double now(void)
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* Mean distance of the points that carry skin from the mean of them, balloon by balloon. */
-static double mean_radius(const struct sim *sim)
-{
-    double sum = 0;
-    uint32_t all = 0;
-    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++) {
-        double mean[3] = {0};
-        uint32_t count = 0;
-        for (uint32_t p = b->point_begin; p < b->point_end; p++)
-            if (vec3_dot(sim->normal[p], sim->normal[p]) > 0) {
-                for (int i = 0; i < 3; i++)
-                    mean[i] += sim->position[p][i];
-                count++;
-            }
-        for (int i = 0; i < 3 && count; i++)
-            mean[i] /= count;
-        for (uint32_t p = b->point_begin; p < b->point_end; p++)
-            if (vec3_dot(sim->normal[p], sim->normal[p]) > 0)
-                sum += vec3_distance(sim->position[p], mean);
-        all += count;
-    }
-    return all ? sum / all : NAN;
-}
-
 double live_stretch(const struct live *live)
 {
-    return mean_radius(live->sim) / live->rest_radius;
+    const struct sim *sim = live->sim;
+    double length = 0, rest = 0;
+    for (uint32_t e = 0; e < sim->edge_count; e++)
+        if (sim->edge_active[e]) {
+            length += sim_edge_length(sim, e);
+            rest += sim->rest_length[e];
+        }
+    return length / rest;
 }
 
 static double frame_seconds(const struct live *live)
@@ -72,7 +54,7 @@ static double film_pace(const struct scene_view *view)
 enum status live_open(struct live *live, struct sim *sim, size_t memory, struct error *err)
 {
     const struct scene_view *view = &sim->scene->view;
-    *live = (struct live){.sim = sim, .pace = film_pace(view), .rest_radius = mean_radius(sim)};
+    *live = (struct live){.sim = sim, .pace = film_pace(view)};
     live->past.bytes_most = memory;
     live->past.frames_most = (size_t)(past_seconds * view->playback);
     for (int dial = 0; dial < LIVE_DIALS; dial++)
@@ -139,7 +121,8 @@ enum status live_run(struct live *live, double seconds, double budget, struct er
     while (!status && !live->paused && live->owed >= live->sim->step) {
         status = live_step(live, err);
         live->owed -= live->sim->taken;
-        if (now() >= until)
+        if (now() >= until ||
+            (live->each_frame && live->sim->time == live->past.items[live->shown].marks.time))
             live->owed = fmin(live->owed, 0);
     }
     count(live, seconds);

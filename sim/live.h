@@ -25,13 +25,13 @@ struct live {
     struct live_past past; /* frames of view.rate */
     size_t shown; /* the frame that the sim was set back to; past.count - 1 or later: it goes on from there */
     double due;   /* s: when the next frame is kept */
-    double rest_radius; /* mean distance of all points from their balloons' centres, at rest */
 
     bool paused;
-    double pace;  /* simulated seconds a second that are wanted */
-    double owed;  /* simulated seconds that the clock is ahead */
-    double speed; /* simulated seconds a second, of late: the pace, where steps keep up with the clock */
-    double rate;  /* steps a second, of late */
+    bool each_frame; /* live_run() returns at every frame that it keeps, so that none is missed */
+    double pace;     /* simulated seconds a second that are wanted */
+    double owed;     /* simulated seconds that the clock is ahead */
+    double speed;    /* simulated seconds a second, of late: the pace, where steps keep up with the clock */
+    double rate;     /* steps a second, of late */
     struct {
         double seconds, simulated, steps;
     } window;                    /* what speed and rate are being counted in */
@@ -62,7 +62,7 @@ void live_show(struct live *live, size_t i);
 /* As it was at the start, and on. */
 void live_restart(struct live *live);
 
-/* Mean distance of the points that carry skin from their mean, over that at rest: the stretch that the plot shows. */
+/* The mean length of the edges that hold, over their mean rest length; NAN where none does. */
 double live_stretch(const struct live *live);
 
 /* Breaks the skin where it is hit. */

@@ -24,7 +24,8 @@ static const char *const columns =
 
 static void put(struct sim_log *log, const char *text, size_t bytes)
 {
-    fwrite(text, 1, bytes, file_out_stream(log->out));
+    if (log->out)
+        fwrite(text, 1, bytes, file_out_stream(log->out));
     if (log->kept)
         fwrite(text, 1, bytes, log->kept);
 }
@@ -58,7 +59,7 @@ enum status sim_log_open(const char *path, const struct sim_log_options *options
     if (options->keep)
         log->kept = open_memstream(&log->rows, &log->row_bytes);
     enum status status = options->keep && !log->kept ? error_no_memory(err, "the log") : STATUS_OK;
-    if (!status)
+    if (!status && path)
         status = file_out_open(path, &log->out, err);
     if (!status)
         status = begin(log, options, err);
@@ -112,7 +113,7 @@ enum status sim_log_close(struct sim_log *log, struct error *err)
 {
     if (!log)
         return STATUS_OK;
-    enum status status = file_out_commit(log->out, err);
+    enum status status = log->out ? file_out_commit(log->out, err) : STATUS_OK;
     drop(log);
     return status;
 }

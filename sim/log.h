@@ -15,7 +15,7 @@ struct sim_log_options {
     double seconds; /* that it took */
 };
 
-/* Begins. Errors: STATUS_FILE, STATUS_NO_MEMORY, STATUS_INPUT when the earlier rows have other columns. */
+/* Begins, in a file, or, where path is NULL, for sim_log_rows() alone. Errors: STATUS_FILE, STATUS_NO_MEMORY, STATUS_INPUT when the earlier rows have other columns. */
 enum status sim_log_open(const char *path, const struct sim_log_options *options, struct sim_log **log,
                          struct error *err);
 

@@ -3,6 +3,7 @@
 #include "sim/guard.h"
 #include "sim/price.h"
 #include "sim/run.h"
+#include "sim/window.h"
 
 #include <signal.h>
 #include <stdlib.h>
@@ -97,6 +98,9 @@ static enum status simulate(const struct options *options, const struct scene *s
     *meshes = NULL;
     if (!status && options->check)
         print_check(&sim);
+    else if (!status && options->window)
+        status = sim_window(&(struct sim_window_options){options->log, WINDOW_PAST_BYTES}, &sim, estimate,
+                            err);
     else if (!status)
         status = run(options, &sim, estimate, err);
     estimate_close(estimate);

@@ -23,7 +23,9 @@ enum {
     OPTION_HASH,
     OPTION_CHECK,
     OPTION_EXPLAIN,
-    OPTION_HELP_SCENE
+    OPTION_HELP_SCENE,
+    OPTION_WINDOW,
+    OPTION_PLOT
 };
 
 static const struct argp_option option_table[] = {
@@ -31,6 +33,8 @@ static const struct argp_option option_table[] = {
     {"movie", OPTION_MOVIE, "FILE", 0, "Make a movie (.mp4, .webm or .gif; needs the program ffmpeg)", 1},
     {"contact-sheet", OPTION_SHEET, "FILE.png", 0, "Draw twelve moments into one picture", 1},
     {"log", OPTION_LOG, "FILE.tsv", 0, "Write a row of measures a frame", 1},
+    {"plot", OPTION_PLOT, "FILE.png", 0,
+     "Draw pressure, radius, energy and pieces over time (.png or .svg; needs the program gnuplot)", 1},
     {"estimate", OPTION_ESTIMATE, 0, 0,
      "Measure the error beside the run, and say what halving it would cost", 1},
     {"accuracy-cost", OPTION_ACCURACY_COST, "FILE", 0,
@@ -42,6 +46,8 @@ static const struct argp_option option_table[] = {
     {"resume", OPTION_RESUME, "FILE", 0, "Go on with the run that is kept in this file", 1},
     {"output", 'o', "FILE", 0, "Write the skin as it is at the end (.ply, .stl or .obj)", 1},
     {"hash", OPTION_HASH, 0, 0, "Print a 64-bit hash of the final state as the last line", 1},
+    {"window", OPTION_WINDOW, 0, 0,
+     "Open the window also beside --log and --estimate; without any output it opens anyway", 1},
     {"set", OPTION_SET, "KEY=VALUE", 0, "Change a key of the scene, by its path: balloons[0].pressure=12", 2},
     {"threads", OPTION_THREADS, "N", 0,
      "How many threads work on a step (default: the machine's); results are equal to the bit", 2},
@@ -51,6 +57,21 @@ static const struct argp_option option_table[] = {
     {"quiet", 'q', 0, 0, "No notes, no progress", 4},
     {0},
 };
+
+/* What only a run from the start to the end gives; --log and --estimate go with a window too. */
+static const char *output_of(const struct options *o)
+{
+    const struct {
+        const char *name;
+        bool wanted;
+    } outputs[] = {{"--frames", o->frames},         {"--movie", o->movie},   {"--contact-sheet", o->sheet},
+                   {"--checkpoint", o->checkpoint}, {"--resume", o->resume}, {"-o", o->mesh},
+                   {"--hash", o->hash},             {"--plot", o->plot}};
+    for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; i++)
+        if (outputs[i].wanted)
+            return outputs[i].name;
+    return NULL;
+}
 
 static error_t parse_option(int key, char *argument, struct argp_state *state)
 {
@@ -108,6 +129,12 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
     case OPTION_HELP_SCENE:
         o->help_scene = true;
         break;
+    case OPTION_PLOT:
+        o->plot = argument;
+        break;
+    case OPTION_WINDOW:
+        o->window = true;
+        break;
     case 'q':
         command_set_quiet(true);
         break;
@@ -121,6 +148,9 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
             argp_error(state, "give a scene (.cfg) or a mesh (.ply, .stl, .obj)");
         if (o->estimate && o->resume)
             argp_error(state, "--estimate measures a run from its start: leave --resume out");
+        if (o->window && output_of(o))
+            argp_error(state, "%s runs to the end without a window: leave one of the two out", output_of(o));
+        o->window = !output_of(o) && (o->window || (!o->log && !o->estimate));
         if (o->checkpoint_every >= 0 && !o->checkpoint)
             argp_error(state, "--checkpoint-every: give --checkpoint FILE too");
         if (o->checkpoint_every < 0)

@@ -9,13 +9,14 @@ struct options {
     const char *scene;
     const char **set; /* [set_count] KEY=VALUE, in order */
     size_t set_count;
-    const char *frames, *movie, *sheet, *log, *mesh;
+    const char *frames, *movie, *sheet, *log, *plot, *mesh;
     const char *checkpoint, *resume;
     double checkpoint_every;   /* s */
     const char *accuracy_cost; /* FILE.tsv, .png or .svg */
     bool estimate;
     unsigned threads; /* 0: as many as the machine has */
     bool hash, check, explain, help_scene;
+    bool window; /* asked for, or no output is */
 };
 
 /* Reads the command line; texts are borrowed from argv. Wrong usage ends the program with 2, --help and --version with 0.

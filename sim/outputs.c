@@ -1,4 +1,5 @@
 #include "sim/outputs.h"
+#include "sim/log_plot.h"
 #include "sim/skins.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@ void outputs_find_rest(struct outputs *outputs, const struct sim *sim)
 static enum status open_log(struct outputs *outputs, const struct options *options,
                             const struct checkpoint_run *past, struct error *err)
 {
-    struct sim_log_options log = {.position_error = options->estimate, .keep = options->checkpoint};
+    struct sim_log_options log = {.position_error = options->estimate, .keep = options->checkpoint || options->plot};
     if (past) {
         log.rows = past->rows;
         log.row_bytes = past->row_bytes;
@@ -24,11 +25,13 @@ enum status outputs_open(struct outputs *outputs, const struct options *options,
                          const struct checkpoint_run *past, struct error *err)
 {
     enum status status = STATUS_OK;
+    outputs->plot = options->plot;
+    outputs->title = options->scene;
     if (past) {
         outputs->shown = past->shown;
         outputs->next = floor(sim->time * sim->scene->view.rate + 1e-6) + 1;
     }
-    if (options->log)
+    if (options->log || options->plot)
         status = open_log(outputs, options, past, err);
     if (status || (!options->frames && !options->movie && !options->sheet))
         return status;
@@ -70,12 +73,22 @@ enum status outputs_show(struct outputs *outputs, struct sim *sim, struct error 
     return status;
 }
 
+static enum status draw_plot(struct outputs *outputs, struct error *err)
+{
+    size_t bytes = 0;
+    const char *rows = sim_log_rows(outputs->log, &bytes);
+    return rows ? log_plot_save(rows, bytes, outputs->title, outputs->plot, err)
+                : error_no_memory(err, "the plot");
+}
+
 enum status outputs_close(struct outputs *outputs, enum status status, struct error *err)
 {
     const bool keep = !status || status == STATUS_DIVERGED || status == STATUS_INTERRUPTED ||
                       status == STATUS_TERMINATED;
     struct error other = {0};
     enum status closed = film_close(outputs->film, &other);
+    if (keep && outputs->plot && outputs->log && draw_plot(outputs, closed ? NULL : &other) && !closed)
+        closed = other.status;
     if (!keep)
         sim_log_abandon(outputs->log);
     else if (sim_log_close(outputs->log, closed ? NULL : &other) && !closed)

@@ -14,6 +14,7 @@ struct outputs {
     struct estimate *estimate; /* asked about each frame; borrowed; NULL: nobody asks */
     double centre[3], radius;  /* of the ball around all points at rest */
     double next;               /* number of the next frame, in frames of view.rate */
+    const char *plot, *title;  /* file of the log's plot (NULL: none), and what stands above it; borrowed */
     uint64_t shown;            /* frames so far */
 };
 

@@ -1,6 +1,7 @@
 #include "sim/run.h"
 #include "common/command.h"
 #include "common/file.h"
+#include "common/plot.h"
 #include "sim/auto.h"
 #include "sim/guard.h"
 #include "sim/interrupt.h"
@@ -121,7 +122,9 @@ static enum status begin(struct run *run, struct error *err)
     const struct options *options = run->options;
     enum status status = probe(options->checkpoint, err);
     outputs_find_rest(&run->outputs, run->sim);
-    if (!status && options->log)
+    if (!status && options->plot)
+        status = plot_check(options->plot, err);
+    if (!status && (options->log || options->plot))
         status = ledger_open(run->sim, err);
     if (!status && options->resume) {
         status = checkpoint_load(options->resume, run->sim, &run->past, err);

@@ -17,5 +17,5 @@ no_file log.tsv
 echo old >log.tsv
 refused 1 '' balloon-sim m.ply $short --log log.tsv -o /proc/end.ply
 only_files m.ply frames log.tsv
-expect 1 sh -c 'balloon-sim "$@" >/dev/full' sh m.ply $short
+expect 1 sh -c 'balloon-sim "$@" >/dev/full' sh m.ply --hash $short
 stderr_has 'cannot write the results'

@@ -26,5 +26,5 @@ done
 
 # CVODE is there, or it says what it needs.
 code=0
-balloon-sim m.ply --set time.integrator=cvode-bdf --set time.end=0.1 --quiet >.stdout 2>.stderr || code=$?
+balloon-sim m.ply --set time.integrator=cvode-bdf --set time.end=0.1 --hash --quiet >.stdout 2>.stderr || code=$?
 [ "$code" = 0 ] || { [ "$code" = 1 ] && stderr_has 'libsundials-dev.*or use "bdf2"'; }

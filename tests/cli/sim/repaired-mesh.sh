@@ -19,5 +19,5 @@ ply inside-out.ply "$tetra_points" '0 1 2
 expect 0 balloon-sim inside-out.ply --set time.end=0.1 --log log.tsv
 stderr_has 'inside out'
 awk -F'\t' 'NR > 1 && $3 <= 0 { exit 1 }' log.tsv || fail "its volume is not positive"
-expect 0 balloon-sim -q inside-out.ply --set time.end=0.1
+expect 0 balloon-sim -q inside-out.ply --hash --set time.end=0.1
 [ ! -s .stderr ] || fail "--quiet is not quiet"

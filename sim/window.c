@@ -1,0 +1,413 @@
+/* The live window: the clock and the mouse become calls of the simulation under the hand. */
+#include "sim/window.h"
+#include "common/command.h"
+#include "common/vec3.h"
+#include "sim/interrupt.h"
+#include "sim/ledger.h"
+#include "sim/window_app.h"
+
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { CLICK_PIXELS = 4 }; /* a pointer that moves further with the button down drags */
+
+/* A picture is not drawn more often than this; steps get this much of its time at least, and this share of it. */
+static const double frame_seconds = 1.0 / 60, step_seconds = 0.012, step_share = 0.4;
+
+/* The clock that the simulation follows does not run on while the program was stopped. */
+static const double longest_tick = 0.25;
+
+double app_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+void app_say(struct app *app, const char *text)
+{
+    snprintf(app->message, sizeof app->message, "%s", text);
+    window_redraw(app->window);
+}
+
+void app_show_title(struct app *app)
+{
+    const char *path = app->live.sim->scene->path, *slash = strrchr(path, '/');
+    char title[600];
+    snprintf(title, sizeof title, "%.500s%s%s - balloon-sim", slash ? slash + 1 : path,
+             app->live.paused ? " (paused)" : "", app->film ? " (recording)" : "");
+    window_title(app->window, title);
+    window_redraw(app->window);
+}
+
+int app_eye_width(const struct app *app)
+{
+    const int pictures = app->view.stereo == RENDER_MONO ? 1 : 2;
+    return app->view.width > 1 ? app->view.width / pictures : 1;
+}
+
+int app_eye_x(const struct app *app, int x)
+{
+    return x >= 0 ? x % app_eye_width(app) : x;
+}
+
+struct render_view app_drawn_view(const struct app *app)
+{
+    struct render_view view = app->view;
+    if (view.stereo && view.width > 1)
+        view.width &= ~1; /* two halves */
+    orbit_camera(&app->orbit, &view.camera);
+    view.camera.eye_distance = app->eye_distance * app->orbit.distance;
+    if (app->stretch_colours)
+        view.style = RENDER_PAPER; /* whose colours are those that it is given */
+    return view;
+}
+
+/* The next tick, once a picture's time has passed since the last. */
+static void schedule(struct app *app)
+{
+    const double left = frame_seconds - (app_seconds() - app->clock);
+    window_timer(app->window, app->live.paused ? -1 : left > 0 ? (int)(1e3 * left) : 0);
+}
+
+void app_pause(struct app *app, bool paused)
+{
+    app->live.paused = paused;
+    app->clock = app_seconds();
+    app_show_title(app);
+    schedule(app);
+}
+
+static void say_unless_ok(struct app *app, enum status status, const struct error *err)
+{
+    if (!status)
+        return;
+    app_say(app, err->text);
+    app_show_title(app);
+}
+
+void app_step(struct app *app)
+{
+    struct error err = {0};
+    app->live.paused = true;
+    app->stale = true;
+    say_unless_ok(app, live_step(&app->live, &err), &err);
+    app_record_frame(app);
+    app_pause(app, true);
+}
+
+void app_turn(struct app *app, enum live_dial dial, double value)
+{
+    live_turn(&app->live, dial, value);
+    app->touched = app->touched || dial != LIVE_PACE;
+    app->stale = true;
+    window_redraw(app->window);
+}
+
+void app_show(struct app *app, double frame)
+{
+    const double last = (double)app->live.past.count - 1;
+    live_show(&app->live, (size_t)fmin(fmax(frame, 0), last));
+    app->touched = app->stale = true;
+    app_pause(app, true);
+}
+
+void app_restart(struct app *app)
+{
+    live_restart(&app->live);
+    app->message[0] = '\0';
+    app->touched = app->stale = true;
+    app_pause(app, false);
+}
+
+void app_see_all(struct app *app)
+{
+    const struct sim *sim = app->live.sim;
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t t = 0; t < sim->triangle_count; t++)
+        for (int k = 0; k < 3 && sim->triangle_active[t]; k++)
+            for (int i = 0; i < 3; i++) {
+                const double at = sim->position[sim->triangle_point[t][k]][i];
+                low[i] = fmin(low[i], at);
+                high[i] = fmax(high[i], at);
+            }
+    orbit_frame(&app->orbit, &app->view, low, high);
+}
+
+/* Each eye has half of the width, and sees from as much further away as that is narrower than high. */
+void app_change_stereo(struct app *app)
+{
+    static const enum render_stereo next[] = {
+        [RENDER_MONO] = RENDER_PARALLEL, [RENDER_PARALLEL] = RENDER_CROSSED, [RENDER_CROSSED] = RENDER_MONO};
+    const double narrower = fmax(1, 2.0 * app->view.height / app->view.width);
+    const enum render_stereo before = app->view.stereo;
+    app->view.stereo = next[before];
+    if (before == RENDER_MONO)
+        app->orbit.distance *= narrower;
+    else if (app->view.stereo == RENDER_MONO)
+        app->orbit.distance /= narrower;
+}
+
+/* What is under a place of the window. */
+static bool find(const struct app *app, int x, int y, struct hand_hit *hit)
+{
+    double origin[3], direction[3];
+    const struct render_view view = app_drawn_view(app);
+    return orbit_ray(&view, x + 0.5, y + 0.5, origin, direction) &&
+           hand_find(app->live.sim, origin, direction, hit);
+}
+
+/* The hand moves in the plane through what it took, across the line of sight. */
+static void pull(struct app *app)
+{
+    double origin[3], direction[3], ahead[3], to[3], place[3];
+    const struct render_view view = app_drawn_view(app);
+    if (!orbit_ray(&view, app->x + 0.5, app->y + 0.5, origin, direction))
+        return;
+    vec3_sub(view.camera.target, view.camera.eye, ahead);
+    vec3_sub(app->live.hand.from, origin, to);
+    const double along = vec3_dot(to, ahead) / vec3_dot(direction, ahead);
+    for (int i = 0; i < 3; i++)
+        place[i] = origin[i] + along * direction[i];
+    hand_move(&app->live.hand, app->live.sim, place);
+}
+
+static void begin_pull(struct app *app)
+{
+    struct hand_hit hit;
+    if (!find(app, app->pressed_x, app->pressed_y, &hit))
+        return;
+    app->drag = DRAG_PULL;
+    app->touched = true;
+    hand_take(&app->live.hand, app->live.sim, &hit);
+    if (app->live.paused)
+        app_say(app, "The hand holds the skin; space lets time go on.");
+}
+
+static void moved(void *self, int x, int y, int modifiers)
+{
+    struct app *app = self;
+    const int dx = x - app->x, dy = y - app->y;
+    (void)modifiers;
+    app->x = x;
+    app->y = y;
+    if (app->drag == DRAG_TOOL && abs(x - app->pressed_x) + abs(y - app->pressed_y) > CLICK_PIXELS)
+        begin_pull(app);
+    if (app->drag == DRAG_TURN)
+        orbit_turn(&app->orbit, dx, dy);
+    else if (app->drag == DRAG_PAN)
+        orbit_pan(&app->orbit, &app->view, dx, dy);
+    else if (app->drag == DRAG_PULL)
+        pull(app);
+    else if (app->drag == DRAG_DIAL || app->drag == DRAG_TIME)
+        app_drag_slider(app, app_eye_x(app, x));
+    if (app->drag != DRAG_NOTHING)
+        window_redraw(app->window);
+}
+
+static void begin_drag(struct app *app, enum window_button button, int modifiers)
+{
+    if (button == WINDOW_RIGHT || (button == WINDOW_MIDDLE && modifiers & WINDOW_SHIFT)) {
+        app->drag = DRAG_PAN;
+    } else if (button == WINDOW_MIDDLE || modifiers & WINDOW_ALT) {
+        app->drag = DRAG_TURN;
+    } else {
+        app->drag = app_find_slider(app, app_eye_x(app, app->x), app->y, &app->dial);
+        if (app->drag == DRAG_NOTHING)
+            app->drag = DRAG_TOOL;
+        else
+            app_drag_slider(app, app_eye_x(app, app->x));
+    }
+    app->pressed_x = app->x;
+    app->pressed_y = app->y;
+}
+
+static void prick(struct app *app)
+{
+    struct hand_hit hit;
+    if (!find(app, app->x, app->y, &hit))
+        return;
+    live_prick(&app->live, &hit);
+    app->touched = app->stale = true;
+}
+
+static void end_drag(struct app *app)
+{
+    if (app->drag == DRAG_TOOL)
+        prick(app);
+    if (app->drag == DRAG_PULL)
+        hand_let_go(&app->live.hand, app->live.sim);
+    app->drag = DRAG_NOTHING;
+}
+
+static void pressed(void *self, enum window_button button, bool down, int x, int y, int modifiers)
+{
+    struct app *app = self;
+    moved(app, x, y, modifiers);
+    if (down && app->drag == DRAG_NOTHING)
+        begin_drag(app, button, modifiers);
+    else if (!down)
+        end_drag(app);
+    window_redraw(app->window);
+}
+
+static void wheel(void *self, int steps, int x, int y, int modifiers)
+{
+    struct app *app = self;
+    moved(app, x, y, modifiers);
+    orbit_zoom(&app->orbit, steps);
+    window_redraw(app->window);
+}
+
+/* As long as nobody has touched the run, its companions are asked how far off it is. */
+static enum status ask_estimate(struct app *app, struct error *err)
+{
+    if (!app->estimate || app->touched)
+        return STATUS_OK;
+    return estimate_compare(app->estimate, app->live.sim, &app->error, err);
+}
+
+static bool interrupted(struct app *app)
+{
+    const int caught = interrupt_caught();
+    if (!caught)
+        return false;
+    error_set(&app->failed, caught == SIGINT ? STATUS_INTERRUPTED : STATUS_TERMINATED, "interrupted at %g s",
+              app->live.sim->time);
+    window_close(app->window);
+    return true;
+}
+
+static void tick(void *self)
+{
+    struct app *app = self;
+    struct error err = {0};
+    const double now = app_seconds(), passed = fmin(now - app->clock, longest_tick);
+    const uint64_t steps = app->live.sim->steps;
+    app->clock = now;
+    if (interrupted(app))
+        return;
+    enum status status = live_run(&app->live, passed, fmax(step_seconds, step_share * app->drawing), &err);
+    if (!status && app->live.sim->steps != steps)
+        status = ask_estimate(app, &err);
+    if (app->live.sim->steps != steps)
+        app->stale = true;
+    say_unless_ok(app, status, &err);
+    app_record_frame(app);
+    window_redraw(app->window);
+    schedule(app);
+}
+
+static void drawn(void *self)
+{
+    struct app *app = self;
+    app_draw(app);
+    if (app->log && app->stale)
+        sim_log_row(app->log, app->live.sim, app->touched ? NAN : app->error);
+    app->stale = false;
+}
+
+static void resized(void *self, int width, int height)
+{
+    struct app *app = self;
+    app->view.width = width;
+    app->view.height = height;
+    window_redraw(app->window);
+}
+
+/* The camera of the scene, led by the hand from there on. */
+static void set_camera(struct app *app)
+{
+    const struct scene_view *scene = &app->live.sim->scene->view;
+    struct orbit *orbit = &app->orbit;
+    const double radius = app->ball[3], *from = scene->camera;
+    for (int i = 0; i < 3; i++)
+        orbit->target[i] = app->ball[i] + radius * scene->target[i];
+    orbit->distance = radius * vec3_length(from);
+    orbit->azimuth_deg = atan2(from[0], from[2]) * 180 / M_PI;
+    orbit->elevation_deg = atan2(from[1], hypot(from[0], from[2])) * 180 / M_PI;
+    orbit->field_of_view_deg = scene->field_of_view;
+    app->eye_distance = scene->eye_distance;
+    skins_view(scene, &app->view);
+    app->film_view = app->view;
+    app->view.order = RENDER_SORT; /* live; films are as the scene says */
+    app->view.samples = 1;
+    app->view.smooth_edges = true;
+    app->view.floor = true;
+    app->view.floor_height = app->ball[1] - 1.8 * radius; /* as in the film */
+}
+
+static enum status open_window(struct app *app, struct error *err)
+{
+    static const struct window_events events = {.draw = drawn,
+                                                .resize = resized,
+                                                .key = app_key,
+                                                .button = pressed,
+                                                .wheel = wheel,
+                                                .motion = moved,
+                                                .timer = tick};
+    struct error reason = {0};
+    if (window_open("balloon-sim", app->view.width, app->view.height, &events, app, &app->window, &reason))
+        return error_set(
+            err, reason.status,
+            "%.800s; --frames DIR, --movie FILE, --contact-sheet FILE and --log FILE run without one",
+            reason.text);
+    enum status status = render_open_window(app->window, &app->render, err);
+    if (!status)
+        status = app_open_pictures(app, err);
+    return status;
+}
+
+static enum status open_log(struct app *app, struct error *err)
+{
+    const struct sim_log_options log = {.position_error = app->estimate};
+    enum status status = ledger_open(app->live.sim, err);
+    return status ? status : sim_log_open(app->options->log, &log, &app->log, err);
+}
+
+static enum status begin(struct app *app, struct sim *sim, struct error *err)
+{
+    app->ball[3] = skins_ball(sim, app->ball);
+    app->live.sim = sim;
+    set_camera(app);
+    enum status status = open_window(app, err);
+    if (!status && app->options->log)
+        status = open_log(app, err);
+    if (!status)
+        status = live_open(&app->live, sim, app->options->memory, err);
+    else
+        app->live = (struct live){0};
+    return status;
+}
+
+enum status sim_window(const struct sim_window_options *options, struct sim *sim, struct estimate *estimate,
+                       struct error *err)
+{
+    struct app app = {.options = options, .estimate = estimate, .error = NAN, .panel = true, .stale = true};
+    interrupt_watch();
+    enum status status = begin(&app, sim, err);
+    if (!status) {
+        app_pause(&app, false);
+        window_run(app.window);
+        app_end_recording(&app);
+        if (app.failed.status)
+            *err = app.failed;
+        status = app.failed.status;
+    }
+    struct error other = {0};
+    if (status && status != STATUS_INTERRUPTED && status != STATUS_TERMINATED)
+        sim_log_abandon(app.log);
+    else if (sim_log_close(app.log, &other) && !status) {
+        *err = other;
+        status = other.status;
+    }
+    live_close(&app.live);
+    app_close_pictures(&app);
+    render_close(app.render);
+    window_free(app.window);
+    return status;
+}

@@ -1,0 +1,153 @@
+/* Inside of the live window: what its files share. window.c answers clock and mouse, window_keys.c the keys; window_draw.c shows the
+ * skin, window_panel.c what lies over it, window_text.c what there is to be read; window_record.c films. */
+#ifndef SIM_WINDOW_APP_H
+#define SIM_WINDOW_APP_H
+
+#include "render/frames.h"
+#include "render/orbit.h"
+#include "render/overlay.h"
+#include "render/window.h"
+#include "sim/live.h"
+#include "sim/log.h"
+#include "sim/skins.h"
+#include "sim/window.h"
+
+/* What a button that is held does. */
+enum drag { DRAG_NOTHING, DRAG_TOOL, DRAG_PULL, DRAG_TURN, DRAG_PAN, DRAG_DIAL, DRAG_TIME };
+
+/* What is shown of the skin. */
+enum wires { WIRES_OFF, WIRES_OVER_SKIN, WIRES_ALONE, WIRES_KINDS };
+
+/* Triangles sorted by their stretch into bands, each a skin in one colour. */
+enum { WINDOW_BANDS = 24 };
+struct window_bands {
+    struct mesh mesh[WINDOW_BANDS]; /* look into these arrays: not to be cleared */
+    struct render_skin skin[WINDOW_BANDS];
+    double (*position)[3], (*normal)[3]; /* [3 x sim->triangle_count] of each triangle's corners */
+    uint32_t (*triangle)[3];             /* [sim->triangle_count] 0 1 2, 3 4 5, ... */
+    unsigned char *band;                 /* [sim->triangle_count] */
+};
+
+struct app {
+    const struct sim_window_options *options;
+    struct live live;
+    struct estimate *estimate;
+    bool touched;    /* the user changed something: what the estimate measures is another run */
+    double error;    /* by the estimate, in radii; NAN: none */
+    double measured; /* app_seconds() when measures were taken, and how long that took */
+    double measuring;
+    struct sim_measures measures;
+    struct sim_log *log;
+
+    struct window *window;
+    struct render *render;
+    struct skins skins;
+    struct window_bands bands;
+    struct orbit orbit;
+    struct render_view view, film_view; /* of films and pictures: order and samples */
+    double ball[4];                     /* around all points at rest: centre, radius */
+    double eye_distance;                /* over the distance to the target */
+    enum wires wires;
+    bool stretch_colours, panel, help;
+
+    enum drag drag;
+    enum live_dial dial;      /* that is dragged */
+    int x, y;                 /* of the pointer */
+    int pressed_x, pressed_y; /* where the button went down */
+
+    double clock;       /* app_seconds() at the last tick */
+    double drawing;     /* seconds that the last picture took */
+    double frames_rate; /* pictures a second, of late */
+    double counting;    /* app_seconds() since when pictures are counted for that */
+    int pictures;
+    bool stale; /* the state is another than the log's last row */
+
+    struct frames *film; /* being recorded; NULL: nothing is */
+    struct image image;
+    char recording[512]; /* its name */
+    double recorded;     /* time of its last picture */
+
+    struct {
+        struct render_line *items;
+        size_t count, capacity;
+    } lines;
+    struct {
+        struct render_box *items;
+        size_t count, capacity;
+    } boxes;
+    char message[1100];  /* the last thing there was to say */
+    struct error failed; /* what ended the program */
+};
+
+/* window.c: of a clock that only goes forwards. */
+double app_seconds(void);
+
+/* A line for the user, "" for none. */
+void app_say(struct app *app, const char *text);
+void app_show_title(struct app *app);
+
+/* Goes on or stops; one step; sets a dial; shows a frame of the past; begins anew. */
+void app_pause(struct app *app, bool paused);
+void app_step(struct app *app);
+void app_turn(struct app *app, enum live_dial dial, double value);
+void app_show(struct app *app, double frame);
+void app_restart(struct app *app);
+
+/* All that is left of the skin in the middle of the picture. */
+void app_see_all(struct app *app);
+void app_change_stereo(struct app *app);
+
+/* The picture as it is drawn and aimed at: stereo needs an even width. */
+struct render_view app_drawn_view(const struct app *app);
+
+/* The size of one eye's picture, and a place of the window in it. */
+int app_eye_width(const struct app *app);
+int app_eye_x(const struct app *app, int x);
+
+/* window_keys.c: a key was pressed (struct window_events). */
+void app_key(void *self, int key, int modifiers);
+extern const char app_help[];
+
+/* window_draw.c: shows everything, into the window; the skin alone, into app->image. */
+enum status app_open_pictures(struct app *app, struct error *err); /* STATUS_NO_MEMORY */
+void app_close_pictures(struct app *app);
+void app_draw(struct app *app);
+enum status app_draw_image(struct app *app, struct error *err);
+
+/* The colour of a stretch, in linear light, and where the scale ends. */
+void app_stretch_colour(const struct app *app, double stretch, float colour[3]);
+double app_stretch_most(const struct app *app);
+
+/* window_panel.c: the boxes of sliders, plot and legend, into app->boxes. False: no memory. */
+bool app_make_boxes(struct app *app);
+
+/* Where there is something to be dragged at a place of one eye's picture: DRAG_DIAL with the dial, DRAG_TIME, or DRAG_NOTHING. */
+enum drag app_find_slider(const struct app *app, int x, int y, enum live_dial *dial);
+
+/* The value of a slider that is dragged to x; and where on it, from 0 to 1, a value is. */
+double app_dial_value(const struct app *app, enum live_dial dial, double part);
+double app_dial_part(const struct app *app, enum live_dial dial);
+void app_drag_slider(struct app *app, int x);
+
+struct panel_box {
+    int x, y, width, height;
+};
+struct panel_box app_slider(const struct app *app, enum live_dial dial);
+struct panel_box app_time_slider(const struct app *app);
+struct panel_box app_plot(const struct app *app);
+struct panel_box app_legend(const struct app *app);
+
+/* The ranges of the plot's axes; false: there is nothing to plot. */
+bool app_plot_ranges(const struct app *app, double stretch[2], double pressure[2]);
+
+/* window_text.c: what there is to be read; it is good until the next call. */
+enum { WINDOW_TEXTS_MAX = 16 };
+size_t app_texts(struct app *app, struct render_text texts[WINDOW_TEXTS_MAX]);
+
+/* window_record.c: begins or ends a film; takes a picture where the film is due one; one PNG. */
+void app_record(struct app *app);
+void app_record_frame(struct app *app);
+void app_end_recording(struct app *app);
+void app_save_picture(struct app *app);
+
+#endif

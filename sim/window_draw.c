@@ -1,0 +1,206 @@
+/* The skin in the live window: as it looks, in colours by its stretch, or as wires. */
+#include "common/array.h"
+#include "common/vec3.h"
+#include "sim/window_app.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* From slack to taut, evenly spaced: dark blue, teal, green, yellow, red. Lightness rises up to the yellow, so that the order can be
+ * read without its hues. */
+static const float scale_colours[][3] = {{0.02f, 0.03f, 0.20f},
+                                         {0.01f, 0.17f, 0.30f},
+                                         {0.03f, 0.38f, 0.12f},
+                                         {0.80f, 0.62f, 0.03f},
+                                         {0.62f, 0.01f, 0.01f}};
+static const float wire_colour[3] = {0.02f, 0.02f, 0.025f};
+
+/* Where no threshold says which stretch is the last, the scale ends here. */
+static const double longest_scale = 6;
+
+static const double count_seconds = 0.5; /* pictures are counted over */
+
+double app_stretch_most(const struct app *app)
+{
+    const struct sim *sim = app->live.sim;
+    const double threshold = sim->settings[0].threshold_length / sim->balloons[0].mean_rest_length;
+    return fmin(fmax(threshold, 1.01), longest_scale);
+}
+
+/* 0 at rest and below, 1 at the end of the scale. */
+static double part_of_scale(const struct app *app, double stretch)
+{
+    const double part = (stretch - 1) / (app_stretch_most(app) - 1);
+    return part > 0 ? fmin(part, 1) : 0;
+}
+
+static void scale_colour(double part, float colour[3])
+{
+    const int last = (int)(sizeof scale_colours / sizeof scale_colours[0]) - 1;
+    const int below = part < 1 ? (int)(part * last) : last - 1;
+    const float t = (float)(part * last - below);
+    for (int i = 0; i < 3; i++)
+        colour[i] = scale_colours[below][i] + t * (scale_colours[below + 1][i] - scale_colours[below][i]);
+}
+
+void app_stretch_colour(const struct app *app, double stretch, float colour[3])
+{
+    scale_colour(part_of_scale(app, stretch), colour);
+}
+
+enum status app_open_pictures(struct app *app, struct error *err)
+{
+    struct window_bands *bands = &app->bands;
+    const size_t triangles = app->live.sim->triangle_count;
+    bands->position = array_new(3 * triangles, sizeof *bands->position);
+    bands->normal = array_new(3 * triangles, sizeof *bands->normal);
+    bands->triangle = array_new(triangles, sizeof *bands->triangle);
+    bands->band = array_new(triangles, sizeof *bands->band);
+    if (!bands->position || !bands->normal || !bands->triangle || !bands->band)
+        return error_no_memory(err, "the colours of stretch");
+    for (uint32_t t = 0; t < triangles; t++)
+        for (uint32_t k = 0; k < 3; k++)
+            bands->triangle[t][k] = 3 * t + k;
+    return skins_init(&app->skins, app->live.sim, err);
+}
+
+void app_close_pictures(struct app *app)
+{
+    free(app->bands.position);
+    free(app->bands.normal);
+    free(app->bands.triangle);
+    free(app->bands.band);
+    skins_clear(&app->skins);
+    free(app->lines.items);
+    free(app->boxes.items);
+    image_clear(&app->image);
+}
+
+/* The mean length of its three edges over their mean rest length. */
+static double triangle_stretch(const struct sim *sim, uint32_t t)
+{
+    double length = 0, rest = 0;
+    for (int k = 0; k < 3; k++) {
+        length += sim_edge_length(sim, sim->triangle_edge[t][k]);
+        rest += sim->rest_length[sim->triangle_edge[t][k]];
+    }
+    return rest > 0 ? length / rest : 1;
+}
+
+/* The corners of the active triangles, band after band. */
+static void fill_bands(struct app *app)
+{
+    const struct sim *sim = app->live.sim;
+    struct window_bands *bands = &app->bands;
+    size_t begin[WINDOW_BANDS + 1] = {0};
+    for (uint32_t t = 0; t < sim->triangle_count; t++) {
+        if (!sim->triangle_active[t])
+            continue;
+        const double part = part_of_scale(app, triangle_stretch(sim, t));
+        bands->band[t] = (unsigned char)fmin(part * WINDOW_BANDS, WINDOW_BANDS - 1);
+        begin[bands->band[t] + 1]++;
+    }
+    for (int i = 0; i < WINDOW_BANDS; i++) {
+        bands->mesh[i] = (struct mesh){.point_count = (uint32_t)(3 * begin[i + 1]),
+                                       .position = bands->position + 3 * begin[i],
+                                       .normal = bands->normal + 3 * begin[i],
+                                       .triangle_count = (uint32_t)begin[i + 1],
+                                       .triangle = bands->triangle};
+        bands->skin[i] = (struct render_skin){.mesh = &bands->mesh[i]};
+        scale_colour((i + 0.5) / WINDOW_BANDS, bands->skin[i].colour);
+        begin[i + 1] += begin[i];
+    }
+    for (uint32_t t = 0; t < sim->triangle_count; t++)
+        for (int k = 0; k < 3 && sim->triangle_active[t]; k++) {
+            const uint32_t p = sim->triangle_point[t][k];
+            const size_t at = 3 * begin[bands->band[t]] + (size_t)k;
+            memcpy(bands->position[at], app->skins.position[p], sizeof *bands->position);
+            memcpy(bands->normal[at], app->skins.normal[p], sizeof *bands->normal);
+            begin[bands->band[t]] += k == 2;
+        }
+}
+
+/* The springs that hold. */
+static bool make_wires(struct app *app)
+{
+    const struct sim *sim = app->live.sim;
+    app->lines.count = 0;
+    if (app->wires == WIRES_OFF)
+        return true;
+    if (!ARRAY_RESERVE(&app->lines, sim->edge_count))
+        return false;
+    for (uint32_t e = 0; e < sim->edge_count; e++) {
+        if (!sim->edge_active[e])
+            continue;
+        struct render_line *line = &app->lines.items[app->lines.count++];
+        *line = (struct render_line){.opacity = 0.6f, .width = 1, .on_top = app->wires == WIRES_ALONE};
+        memcpy(line->from, sim->position[sim->edge_point[e][0]], sizeof line->from);
+        memcpy(line->to, sim->position[sim->edge_point[e][1]], sizeof line->to);
+        memcpy(line->colour, wire_colour, sizeof line->colour);
+        if (app->stretch_colours && app->wires == WIRES_ALONE)
+            app_stretch_colour(app, sim_edge_length(sim, e) / sim->rest_length[e], line->colour);
+    }
+    return true;
+}
+
+/* All but what lies on the glass. */
+static enum status make_scene(struct app *app, struct render_scene *scene, struct error *err)
+{
+    skins_update(&app->skins);
+    if (app->wires != WIRES_ALONE && app->stretch_colours) {
+        fill_bands(app);
+        scene->skins = app->bands.skin;
+        scene->skin_count = WINDOW_BANDS;
+    } else if (app->wires != WIRES_ALONE) {
+        scene->skins = app->skins.skins;
+        scene->skin_count = app->live.sim->balloon_count;
+    }
+    if (!make_wires(app))
+        return error_no_memory(err, "the wires");
+    scene->lines = app->lines.items;
+    scene->line_count = app->lines.count;
+    return STATUS_OK;
+}
+
+static void count_frames(struct app *app, double begun)
+{
+    const double now = app_seconds();
+    app->drawing = now - begun;
+    app->pictures++;
+    if (now - app->counting < count_seconds)
+        return;
+    app->frames_rate = app->pictures / (now - app->counting);
+    app->counting = now;
+    app->pictures = 0;
+}
+
+void app_draw(struct app *app)
+{
+    struct render_text texts[WINDOW_TEXTS_MAX];
+    struct render_scene scene = {.texts = texts};
+    struct error err = {0};
+    const double begun = app_seconds();
+    const struct render_view view = app_drawn_view(app);
+    enum status status = make_scene(app, &scene, &err);
+    scene.text_count = app_texts(app, texts);
+    if (app_make_boxes(app)) {
+        scene.boxes = app->boxes.items;
+        scene.box_count = app->boxes.count;
+    }
+    if (!status)
+        status = render_show(app->render, &view, &scene, &err);
+    if (status) /* it is read in the next picture */
+        memcpy(app->message, err.text, sizeof err.text);
+    count_frames(app, begun);
+}
+
+enum status app_draw_image(struct app *app, struct error *err)
+{
+    struct render_scene scene = {0};
+    struct render_view view = app_drawn_view(app);
+    enum status status = make_scene(app, &scene, err);
+    view.order = app->film_view.order;
+    view.samples = app->film_view.samples;
+    return status ? status : render_draw_scene(app->render, &view, &scene, &app->image, err);
+}

@@ -1,0 +1,143 @@
+/* What the keys of the live window do. */
+#include "sim/window_app.h"
+
+#include <math.h>
+
+const char app_help[] = "left       prick, drag: pull     middle, alt+left  turn\n"
+                        "right      pan (shift+middle)    wheel      zoom\n"
+                        "\n"
+                        "space  pause, go on              .  one step\n"
+                        "up down  pressure                [ ]  time step\n"
+                        "- +  spring constants            < >  speed of time\n"
+                        "left right  a frame back, on     page up, down  a second\n"
+                        "r  from the start\n"
+                        "\n"
+                        "home f  see all   1 3 7  front, right, top (ctrl: the other side)\n"
+                        "v  stereo         w  wires       c  colours by stretch\n"
+                        "s  latex or the paper's look     tab  sliders and plot\n"
+                        "m  record a movie, end it        p  save a picture\n"
+                        "ctrl+q  quit                     F1 ?  this help";
+
+/* A key turns a dial by this part of its slider. */
+static const double key_part = 0.02;
+
+static void look(struct app *app, enum orbit_side side, enum orbit_side other, int modifiers)
+{
+    orbit_look(&app->orbit, modifiers & WINDOW_CTRL ? other : side);
+}
+
+static bool dial_key(struct app *app, int key)
+{
+    static const struct {
+        int key;
+        enum live_dial dial;
+        int sign;
+    } keys[] = {
+        {WINDOW_UP_ARROW, LIVE_PRESSURE, 1},
+        {WINDOW_DOWN_ARROW, LIVE_PRESSURE, -1},
+        {']', LIVE_STEP, 1},
+        {'[', LIVE_STEP, -1},
+        {'+', LIVE_SPRINGS, 1},
+        {'=', LIVE_SPRINGS, 1},
+        {'-', LIVE_SPRINGS, -1},
+        {'>', LIVE_PACE, 1},
+        {'<', LIVE_PACE, -1},
+    };
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
+        if (keys[i].key == key) {
+            const double part = app_dial_part(app, keys[i].dial) + keys[i].sign * key_part;
+            app_turn(app, keys[i].dial, app_dial_value(app, keys[i].dial, fmax(part, 0)));
+            return true;
+        }
+    return false;
+}
+
+static bool time_key(struct app *app, int key)
+{
+    const double second = app->live.sim->scene->view.playback, frame = (double)app->live.shown;
+    switch (key) {
+    case ' ':
+        app_pause(app, !app->live.paused);
+        return true;
+    case '.':
+        app_step(app);
+        return true;
+    case 'r':
+        app_restart(app);
+        return true;
+    case WINDOW_LEFT_ARROW:
+        app_show(app, frame - 1);
+        return true;
+    case WINDOW_RIGHT_ARROW:
+        app_show(app, frame + 1);
+        return true;
+    case WINDOW_PAGE_UP:
+        app_show(app, frame - second);
+        return true;
+    case WINDOW_PAGE_DOWN:
+        app_show(app, frame + second);
+        return true;
+    default:
+        return false;
+    }
+}
+
+static void view_key(struct app *app, int key, int modifiers)
+{
+    switch (key) {
+    case '1':
+        look(app, ORBIT_FRONT, ORBIT_BACK, modifiers);
+        break;
+    case '3':
+        look(app, ORBIT_RIGHT, ORBIT_LEFT, modifiers);
+        break;
+    case '7':
+        look(app, ORBIT_TOP, ORBIT_BOTTOM, modifiers);
+        break;
+    case WINDOW_HOME:
+    case 'f':
+        app_see_all(app);
+        break;
+    case 'v':
+        app_change_stereo(app);
+        break;
+    case 's':
+        app->view.style = app->view.style == RENDER_LATEX ? RENDER_PAPER : RENDER_LATEX;
+        break;
+    case 'w':
+        app->wires = (app->wires + 1) % WIRES_KINDS;
+        break;
+    case 'c':
+        app->stretch_colours = !app->stretch_colours;
+        break;
+    case WINDOW_TAB:
+        app->panel = !app->panel;
+        break;
+    case 'm':
+        app_record(app);
+        break;
+    case 'p':
+        app_save_picture(app);
+        break;
+    case WINDOW_F1:
+    case '?':
+        app->help = !app->help;
+        break;
+    case WINDOW_ESCAPE:
+        app->help = false;
+        app->message[0] = '\0';
+        break;
+    default:
+        break;
+    }
+}
+
+void app_key(void *self, int key, int modifiers)
+{
+    struct app *app = self;
+    if (modifiers & WINDOW_CTRL && key == 'q')
+        window_close(app->window);
+    else if (modifiers & WINDOW_CTRL || (!dial_key(app, key) && !time_key(app, key)))
+        view_key(app, key, modifiers);
+    window_redraw(app->window);
+}

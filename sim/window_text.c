@@ -1,0 +1,179 @@
+/* What the live window says. */
+#include "sim/window_app.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { TEXT_SIZE = 1280, MARGIN = 8, LETTER_WIDTH = 6, LETTER_HEIGHT = 7 };
+
+/* Measures are taken this often, and may take a twentieth of the time. */
+static const double measure_seconds = 0.1, measure_share = 0.05;
+
+static const float white[3] = {1, 1, 1}, warm[3] = {1, 0.8f, 0.3f};
+
+static void measure(struct app *app)
+{
+    const double now = app_seconds();
+    if (app->stale &&
+        now - app->measured >= fmax(app->live.paused ? 0 : measure_seconds, app->measuring / measure_share)) {
+        app->measures = sim_measure(app->live.sim);
+        app->measured = now;
+        app->measuring = app_seconds() - now;
+    }
+}
+
+static void describe_effects(const struct app *app, char *text, size_t size)
+{
+    const struct sim *sim = app->live.sim;
+    size_t used = 0;
+    const char *last = NULL;
+    text[0] = '\0';
+    for (int phase = 0; phase < EFFECT_PHASES; phase++)
+        for (size_t i = 0; i < sim->hook_count[phase]; i++) {
+            const char *name = sim->hooks[phase][i].effect->name;
+            if (last == name || used + strlen(name) + 2 >= size)
+                continue;
+            used += (size_t)snprintf(text + used, size - used, "%s%s", last ? " " : "", name);
+            last = name;
+        }
+    if (!last)
+        snprintf(text, size, "none");
+}
+
+static void describe_error(const struct app *app, char *text, size_t size)
+{
+    if (!app->estimate)
+        snprintf(text, size, "not estimated");
+    else if (app->touched)
+        snprintf(text, size, "not known of a run that was touched");
+    else if (isnan(app->error))
+        snprintf(text, size, "not known after a break");
+    else
+        snprintf(text, size, "%.2g radii", app->error);
+}
+
+static void describe_state(const struct app *app, char *text, size_t size)
+{
+    const struct sim_measures *m = &app->measures;
+    char active[200], error[60];
+    describe_effects(app, active, sizeof active);
+    describe_error(app, error, sizeof error);
+    const char *going = app->live.paused ? "paused" : "";
+    char speed[40] = "";
+    if (!app->live.paused)
+        snprintf(speed, sizeof speed, "%.2g x", app->live.speed);
+    snprintf(text, size,
+             "%.3f s  %s%s  %.0f steps/s  %.0f frames/s\nenergy %.4g moving + %.4g in springs   error %s\n"
+             "%u triangles in %u piece%s   effects: %s   F1 help",
+             app->live.sim->time, going, speed, app->live.rate, app->frames_rate, m->kinetic_energy,
+             m->elastic_energy, error, m->triangles_active, m->pieces, m->pieces == 1 ? "" : "s", active);
+}
+
+struct page {
+    struct render_text *texts;
+    char (*storage)[TEXT_SIZE];
+    size_t count;
+};
+
+static struct render_text *add(struct page *page, int x, int y, int scale, const float colour[3], bool boxed)
+{
+    struct render_text *text = &page->texts[page->count];
+    *text = (struct render_text){page->storage[page->count],        x,    y, scale,
+                                 {colour[0], colour[1], colour[2]}, boxed};
+    page->count++;
+    return text;
+}
+
+/* The next text's storage. */
+static char *room(struct page *page)
+{
+    return page->storage[page->count];
+}
+
+/* Breaks a line that is longer than this many letters at its spaces. */
+static void wrap(char *text, int columns)
+{
+    char *line = text, *space = NULL;
+    for (char *at = text; *at; at++) {
+        if (*at == '\n' || *at == ' ')
+            space = at;
+        if (*at == '\n')
+            line = at + 1;
+        if (at - line >= columns && space >= line) {
+            *space = '\n';
+            line = space + 1;
+        }
+    }
+}
+
+static void add_sliders(const struct app *app, struct page *page)
+{
+    for (int i = 0; i < LIVE_DIALS; i++) {
+        const struct panel_box track = app_slider(app, (enum live_dial)i);
+        snprintf(room(page), TEXT_SIZE, "%-8s %.4g", live_dial_names[i],
+                 live_value(&app->live, (enum live_dial)i));
+        add(page, MARGIN, track.y + track.height / 2 - LETTER_HEIGHT / 2, 1, white, false);
+    }
+    const struct panel_box time = app_time_slider(app);
+    snprintf(room(page), TEXT_SIZE, "%.3f s", app->live.sim->time);
+    add(page, MARGIN, time.y + time.height / 2 - LETTER_HEIGHT / 2, 1, white, false);
+}
+
+static void add_plot(const struct app *app, struct page *page)
+{
+    const struct panel_box plot = app_plot(app);
+    double stretch[2], pressure[2];
+    snprintf(room(page), TEXT_SIZE, "pressure against stretch");
+    add(page, plot.x + 4, plot.y + 4, 1, white, false);
+    if (!app_plot_ranges(app, stretch, pressure))
+        return;
+    snprintf(room(page), TEXT_SIZE, "%.3g", pressure[1]);
+    add(page, plot.x + 4, plot.y + 4 + 2 * LETTER_HEIGHT, 1, warm, false);
+    snprintf(room(page), TEXT_SIZE, "%.3g", stretch[0]);
+    add(page, plot.x + 4, plot.y + plot.height - 4 - LETTER_HEIGHT, 1, warm, false);
+    snprintf(room(page), TEXT_SIZE, "%.3g", stretch[1]);
+    const int width = (int)strlen(room(page)) * LETTER_WIDTH;
+    add(page, plot.x + plot.width - 4 - width, plot.y + plot.height - 4 - LETTER_HEIGHT, 1, warm, false);
+}
+
+static void add_legend(const struct app *app, struct page *page)
+{
+    const struct panel_box legend = app_legend(app);
+    snprintf(room(page), TEXT_SIZE, "stretch");
+    add(page, legend.x + legend.width - 7 * LETTER_WIDTH, legend.y - LETTER_HEIGHT - 6, 1, white, false);
+    for (int i = 0; i <= 2; i++) {
+        snprintf(room(page), TEXT_SIZE, "%.2f", 1 + (app_stretch_most(app) - 1) * i / 2);
+        const int width = (int)strlen(room(page)) * LETTER_WIDTH;
+        add(page, legend.x - 4 - width, legend.y + legend.height * (2 - i) / 2 - LETTER_HEIGHT / 2, 1, white,
+            false);
+    }
+}
+
+size_t app_texts(struct app *app, struct render_text texts[WINDOW_TEXTS_MAX])
+{
+    static char storage[WINDOW_TEXTS_MAX][TEXT_SIZE];
+    struct page page = {texts, storage, 0};
+    const int columns = (app_eye_width(app) - 3 * MARGIN) / LETTER_WIDTH;
+    int height = 0, width;
+    measure(app);
+    describe_state(app, room(&page), TEXT_SIZE);
+    wrap(room(&page), columns);
+    render_text_size(add(&page, MARGIN, MARGIN, 1, white, true), &width, &height);
+    if (app->message[0]) {
+        snprintf(room(&page), TEXT_SIZE, "%s", app->message);
+        wrap(room(&page), columns);
+        add(&page, MARGIN, 2 * MARGIN + height, 1, warm, true);
+    }
+    if (app->panel) {
+        add_sliders(app, &page);
+        add_plot(app, &page);
+    }
+    if (app->stretch_colours)
+        add_legend(app, &page);
+    if (app->help) {
+        snprintf(room(&page), TEXT_SIZE, "%s", app_help);
+        add(&page, 3 * MARGIN, 9 * MARGIN, 1, white, true);
+    }
+    return page.count;
+}
