@@ -64,9 +64,15 @@ static const char *output_of(const struct options *o)
     const struct {
         const char *name;
         bool wanted;
-    } outputs[] = {{"--frames", o->frames},         {"--movie", o->movie},   {"--contact-sheet", o->sheet},
-                   {"--checkpoint", o->checkpoint}, {"--resume", o->resume}, {"-o", o->mesh},
-                   {"--hash", o->hash},             {"--plot", o->plot}};
+    } outputs[] = {{"--frames", o->frames},
+                   {"--movie", o->movie},
+                   {"--contact-sheet", o->sheet},
+                   {"--checkpoint", o->checkpoint},
+                   {"--resume", o->resume},
+                   {"-o", o->mesh},
+                   {"--hash", o->hash},
+                   {"--plot", o->plot},
+                   {"--accuracy-cost", o->accuracy_cost}};
     for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; i++)
         if (outputs[i].wanted)
             return outputs[i].name;

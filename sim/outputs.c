@@ -12,7 +12,8 @@ void outputs_find_rest(struct outputs *outputs, const struct sim *sim)
 static enum status open_log(struct outputs *outputs, const struct options *options,
                             const struct checkpoint_run *past, struct error *err)
 {
-    struct sim_log_options log = {.position_error = options->estimate, .keep = options->checkpoint || options->plot};
+    struct sim_log_options log = {.position_error = options->estimate,
+                                  .keep = options->checkpoint || options->plot};
     if (past) {
         log.rows = past->rows;
         log.row_bytes = past->row_bytes;
