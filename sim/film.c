@@ -3,6 +3,7 @@
 #include "common/vec3.h"
 #include "sim/skins.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 struct film {
@@ -11,7 +12,24 @@ struct film {
     struct render_view view;
     struct frames *frames;
     struct image image;
+    char *keys;                 /* the scene's, a line each */
+    struct image_text texts[2]; /* of every PNG */
 };
+
+/* Every frame tells where it is from: the scene's file, and all keys that its state depends on, seeds among them. */
+static enum status make_texts(struct film *film, const struct scene *scene, struct error *err)
+{
+    size_t size = 0;
+    FILE *stream = open_memstream(&film->keys, &size);
+    if (!stream)
+        return error_no_memory(err, "the frames' texts");
+    scene_write_keys(scene, stream);
+    if (fclose(stream))
+        return error_no_memory(err, "the frames' texts");
+    film->texts[0] = (struct image_text){"Scene", scene->path ? scene->path : scene->balloons[0].mesh};
+    film->texts[1] = (struct image_text){"Keys", film->keys};
+    return STATUS_OK;
+}
 
 /* The scene measures in radii of the ball around all points at rest. */
 static void set_camera(struct render_view *view, const struct sim *sim, const double centre[3], double radius)
@@ -43,7 +61,12 @@ enum status film_open(struct sim *sim, const double centre[3], double radius,
     if (!status)
         status = render_open(film->view.width, film->view.height, &film->render, err);
     if (!status)
-        status = frames_open(options, &film->frames, err);
+        status = make_texts(film, sim->scene, err);
+    struct frames_options with_texts = *options;
+    with_texts.texts = film->texts;
+    with_texts.text_count = sizeof film->texts / sizeof *film->texts;
+    if (!status)
+        status = frames_open(&with_texts, &film->frames, err);
     if (status)
         film_close(film, NULL);
     else
@@ -68,6 +91,7 @@ enum status film_close(struct film *film, struct error *err)
     render_close(film->render);
     image_clear(&film->image);
     skins_clear(&film->skins);
+    free(film->keys);
     free(film);
     return status;
 }

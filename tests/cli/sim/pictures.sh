@@ -1,0 +1,29 @@
+# What a picture can be asked for, what every frame tells of itself, and what is refused.
+ply m.ply "$tetra_points" "$tetra_triangles"
+short='--set time.end=0.05 --set view.rate=20 --set balloons[0].pressure=0'
+for style in latex paper; do
+    for order in none sort peel list; do
+        expect 0 balloon-sim m.ply $short --set view.size=[64,48] --set view.samples=2 --set view.style=$style \
+            --set view.order=$order --frames "$style-$order"
+        a_file "$style-$order/frame_0000.png"
+    done
+done
+for stereo in mono parallel crossed over-under red-cyan interlaced left right; do
+    expect 0 balloon-sim m.ply $short --set view.size=[64,48] --set view.stereo=$stereo --set view.squeezed=yes \
+        --frames "$stereo"
+    a_file "$stereo/frame_0001.png"
+done
+cmp -s left/frame_0001.png right/frame_0001.png && fail "both eyes see the same"
+for text in Scene m.ply Keys 'balloons\[0\].pressure=0' Time; do
+    grep -aq "$text" mono/frame_0001.png || fail "the frame does not say: $text"
+done
+for size in '[0,48]' '[64,1000000]'; do
+    refused 1 'size.*16 to 16384|size.*16.*16384' balloon-sim m.ply $short --set "view.size=$size" --frames bad
+done
+refused 1 'camera' balloon-sim m.ply $short --set 'view.camera=[nan,0,1]' --frames bad
+refused 1 'camera sees nothing' balloon-sim m.ply $short --set 'view.camera=[0.0,0.0,0.0]' --frames bad
+refused 1 '63 wide' balloon-sim m.ply $short --set view.size=[63,48] --frames bad
+refused 1 'style.*latex' balloon-sim m.ply $short --set view.style=rubber --frames bad
+expect 0 balloon-sim m.ply $short --set view.size=[64,48] --set 'view.camera=[0.0,0.0,0.1]' --frames inside
+refused 1 'osmesa' env BALLOON_CONTEXT=none balloon-sim m.ply $short --frames bad
+[ ! -e bad/frame_0000.png ] || fail "a refused run left a frame"
