@@ -212,7 +212,8 @@ static enum status walk(struct accuracy_plan *plan, const struct integrator *met
                             .per_step = evaluations * plan->evaluation,
                             .first = table->count};
     enum status status = STATUS_OK;
-    while (!status && !ladder.over && table->count < ACCURACY_ROWS_MAX && ladder.dial > 1e-13) {
+    while (!status && !ladder.over && table->count < ladder.first + ACCURACY_LADDER_ROWS &&
+           ladder.dial > 1e-13) {
         status = climb(plan, &ladder, states, err);
         ladder.dial /= tolerant ? 10 : 2;
     }

@@ -1,6 +1,7 @@
 #include "sim/price.h"
 #include "common/command.h"
 #include "common/file.h"
+#include "common/plot.h"
 #include "sim/interrupt.h"
 #include "sim/price_plot.h"
 
@@ -96,6 +97,26 @@ static void print_table(const struct accuracy_table *table, FILE *stream)
         print_failure(&table->failures[i], stream);
 }
 
+/* The table's name: beside a picture it has the picture's. NULL: no memory. */
+static char *table_name(const char *path)
+{
+    char *name = strdup(path);
+    if (name)
+        memcpy(name + strlen(name) - 3, "tsv", 3);
+    return name;
+}
+
+/* What cannot be written or drawn is found out before the work, not after it. */
+static enum status probe(const char *path, const char *table, struct error *err)
+{
+    struct file_out *out = NULL;
+    enum status status = plot_is_file_name(path) ? plot_check(path, err) : STATUS_OK;
+    if (!status)
+        status = file_out_open(table, &out, err);
+    file_out_abandon(out);
+    return status;
+}
+
 static enum status save_table(const struct accuracy_table *table, const char *path, struct error *err)
 {
     struct file_out *out;
@@ -105,20 +126,6 @@ static enum status save_table(const struct accuracy_table *table, const char *pa
     return file_out_commit(out, err);
 }
 
-static enum status save(const struct accuracy_table *table, const char *scene, const char *path,
-                        struct error *err)
-{
-    if (file_has_extension(path, "tsv"))
-        return save_table(table, path, err);
-    char *beside = strdup(path);
-    if (!beside)
-        return error_no_memory(err, path);
-    memcpy(beside + strlen(beside) - 3, "tsv", 3);
-    enum status status = save_table(table, beside, err);
-    free(beside);
-    return status ? status : price_plot(table, scene, path, err);
-}
-
 static bool go_on(void *context, double done)
 {
     (void)context;
@@ -126,24 +133,36 @@ static bool go_on(void *context, double done)
     return !interrupt_caught();
 }
 
-enum status price_accuracy(const struct scene *scene, const struct mesh *meshes, const char *path,
+/* With a progress bar. */
+static enum status measure(const struct scene *scene, const struct mesh *meshes, struct accuracy_table *table,
                            struct error *err)
 {
     enum { SECONDS = 60 };
     const struct accuracy_options options = {.seconds = SECONDS, .go_on = go_on};
-    struct accuracy_table *table = calloc(1, sizeof *table);
-    if (!table)
-        return error_no_memory(err, "the table");
     interrupt_watch();
     progress_begin("pricing", "%", 100);
     enum status status = accuracy_measure(scene, meshes, &options, table, err);
     progress_end();
     if (status == STATUS_INTERRUPTED && interrupt_caught() == SIGTERM)
         err->status = status = STATUS_TERMINATED;
+    return status;
+}
+
+enum status price_accuracy(const struct scene *scene, const struct mesh *meshes, const char *path,
+                           struct error *err)
+{
+    struct accuracy_table *table = calloc(1, sizeof *table);
+    char *name = table_name(path);
+    enum status status = table && name ? probe(path, name, err) : error_no_memory(err, "the table");
+    if (!status)
+        status = measure(scene, meshes, table, err);
     if (!status) {
         print_table(table, stdout);
-        status = save(table, scene->path, path, err);
+        status = save_table(table, name, err);
     }
+    if (!status && plot_is_file_name(path))
+        status = price_plot(table, scene->path, path, err);
     free(table);
+    free(name);
     return status;
 }

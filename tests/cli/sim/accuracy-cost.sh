@@ -1,0 +1,35 @@
+# What accuracy costs on this scene: a table on stdout and in a file, references, auto's standing, failures, a plot.
+balloon-sculpt -q --depth 1 -o cube.oct
+balloon-surface -q cube.oct --cube-size 0.3 -o cube.ply
+calm='--set time.end=0.4 --set balloons[0].pressure=4 --set balloons[0].point_mass=1 --set balloons[0].threshold=100'
+expect 0 balloon-sim cube.ply $calm --accuracy-cost cost.tsv
+[ "$(head -n 1 .stdout | cut -f 1-7)" = "$(printf 'method\tsetting\tsteps\tevaluations\tseconds\terror\torder')" ] ||
+    fail "the header is another"
+same_file .stdout cost.tsv
+grep -v '^#' cost.tsv | awk -F'\t' 'NF != 20 { exit 1 }' || fail "a row has not twenty columns"
+for method in symplectic-euler explicit-euler verlet rk4 rkn4 rk-adaptive backward-euler implicit-midpoint bdf2 xpbd auto; do
+    [ "$(grep -c "^$method	" cost.tsv)" -ge 3 ] || fail "too few rows of $method"
+done
+awk -F'\t' '$1 == "rk4" && $6 < 1e-4 && $6 > 1e-9 && !($7 > 3.5 && $7 < 4.6 || $7 == "nan") { exit 1 }' cost.tsv ||
+    fail "rk4 has another order"
+stdout_has '^# references: .* and .* extrapolated: they agree to [0-9.e-]+, [0-9.e+]+ times better than the best row$'
+stdout_has '^# auto at time.tolerance=1e-05 \(.*substep.*\): [0-9.]+ x the time of the fastest'
+only_files cube.oct cube.ply cost.tsv
+
+# the setting is what --set takes
+setting=$(awk -F'\t' '$1 == "verlet" { print $2; exit }' cost.tsv)
+expect 0 balloon-sim cube.ply $calm --set time.integrator=verlet --set "$setting"
+
+if command -v gnuplot >/dev/null; then
+    expect 0 balloon-sim cube.ply $calm --accuracy-cost cost.svg
+    a_file cost.svg
+    grep -q 'auto' cost.svg || fail "auto is not in the plot"
+else
+    echo "gnuplot is not installed: no plot was drawn"
+fi
+# what cannot be written is known before the work
+refused 1 'no-folder/cost.tsv' balloon-sim cube.ply $calm --accuracy-cost no-folder/cost.tsv
+refused 2 'must end in \.tsv, \.png or \.svg' balloon-sim cube.ply --accuracy-cost cost.pdf
+refused 1 'gnuplot is needed for plots and is not installed; on Debian: apt install gnuplot-nox$' \
+    env PATH="$PROGRAMS/sim" balloon-sim cube.ply $calm --accuracy-cost none.png
+no_file none.png

@@ -1,0 +1,135 @@
+/* The table of what accuracy costs: every method is in it, and its errors fall with its order. */
+#include "balloon.h"
+#include "sim/accuracy.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A small balloon that swells and swings: nothing breaks but where a test wants it. */
+#define CALM                                                                                    \
+    SETTINGS("balloons[0].point_mass=1", "balloons[0].pressure=4", "balloons[0].threshold=100", \
+             "time.end=0.8", "time.guard=off")
+#define BURSTING                                                                                  \
+    SETTINGS("balloons[0].point_mass=1", "balloons[0].threshold=1.2", "balloons[0].pressure=200", \
+             "time.end=6", "time.guard=off")
+
+static enum status measure(const char *const *settings, const struct accuracy_options *options,
+                           struct accuracy_table *table, struct error *err)
+{
+    struct balloon b;
+    open_balloon(&b, 1, settings);
+    const enum status status = accuracy_measure(&b.scene, &b.mesh, options, table, err);
+    close_balloon(&b);
+    return status;
+}
+
+static size_t rows_of(const struct accuracy_table *table, const struct integrator *method, size_t *first)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < table->count; i++)
+        if (table->rows[i].method == method && count++ == 0)
+            *first = i;
+    return count;
+}
+
+/* By halving, where the coarser step is stable and not so coarse that higher terms count: from an error of 1e-3 on. Rounding in 1e4
+ * steps and the references' distance stay below a hundredth of 1e-9. */
+static void check_ladder(const struct accuracy_row *row, size_t count)
+{
+    const bool tolerant = row->method->flags & INTEGRATOR_ADAPTIVE || row->method->choose;
+    for (size_t i = 1; i < count; i++) {
+        assert_true(row[i].steps >= row[i - 1].steps || tolerant);
+        if (tolerant || row[i - 1].error > 1e-3 || row[i].error < 1e-9)
+            continue;
+        assert_true(row[i].error < row[i - 1].error);
+        assert_near(row[i].order, row->method->order, 0.35);
+    }
+}
+
+static void every_method_is_there_and_errors_fall_with_its_order(void **state)
+{
+    (void)state;
+    static struct accuracy_table table;
+    struct error err = {0};
+    assert_ok(measure(CALM, &(struct accuracy_options){.seconds = 2}, &table, &err), &err);
+    size_t methods = 0;
+    for (; integrators[methods]; methods++) {
+        size_t first = 0;
+        const size_t count = rows_of(&table, integrators[methods], &first);
+        bool failed = false;
+        for (size_t i = 0; i < table.failure_count; i++)
+            failed |= table.failures[i].method == integrators[methods];
+        print_message("%s: %d rows%s\n", integrators[methods]->name, (int)count, failed ? ", failures" : "");
+        assert_true(count > 0 || failed);
+        if (count > 0)
+            check_ladder(&table.rows[first], count);
+    }
+    assert_true(methods <= ACCURACY_FAILURES_MAX);
+    assert_true(methods * ACCURACY_LADDER_ROWS <= ACCURACY_ROWS_MAX);
+    assert_true(isinf(table.first_break));
+    assert_near(table.span, 0.8, 1e-12); /* 32 steps: four times eight */
+}
+
+static void references_agree_ten_times_better_than_the_best_row(void **state)
+{
+    (void)state;
+    static struct accuracy_table table;
+    struct error err = {0};
+    assert_ok(measure(CALM, &(struct accuracy_options){.seconds = 2}, &table, &err), &err);
+    for (size_t i = 0; i < table.count; i++)
+        assert_true(table.rows[i].error >= 10 * table.agreement);
+    assert_true(table.agreement < 1e-10);
+    const struct integrator *fastest = NULL;
+    const double rough = accuracy_fastest(&table, 1e-2, &fastest),
+                 fine = accuracy_fastest(&table, 1e-7, &fastest);
+    assert_true(rough <= fine && isfinite(fine) && fastest && !fastest->choose);
+    assert_true(isinf(accuracy_fastest(&table, 1e-15, &fastest)));
+}
+
+static void the_span_ends_before_the_first_break_and_ensembles_go_past_it(void **state)
+{
+    (void)state;
+    static struct accuracy_table table;
+    struct error err = {0};
+    int ensembles = 0;
+    assert_ok(measure(BURSTING, &(struct accuracy_options){.seconds = 2}, &table, &err), &err);
+    assert_true(isfinite(table.first_break) && table.span < table.first_break);
+    assert_true(table.burst_end > table.burst && table.burst >= table.first_break);
+    for (size_t i = 0; i < table.count; i++) {
+        const struct accuracy_burst *b = &table.rows[i].burst;
+        if (b->members == 0)
+            continue;
+        ensembles++;
+        assert_true(b->time.mean > table.span && b->time.spread >= 0);
+        assert_true(b->pieces.mean >= 0 && b->largest.mean >= 0 && b->largest.mean <= 1);
+    }
+    assert_true(ensembles >= 3);
+}
+
+static bool stop(void *context, double done)
+{
+    (void)done;
+    return ++*(int *)context < 20;
+}
+
+static void it_ends_when_somebody_wants_it_to(void **state)
+{
+    (void)state;
+    static struct accuracy_table table;
+    struct error err = {0};
+    int asked = 0;
+    const struct accuracy_options options = {.seconds = 3, .go_on = stop, .context = &asked};
+    assert_int_equal(measure(CALM, &options, &table, &err), STATUS_INTERRUPTED);
+    assert_int_equal(asked, 20);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_method_is_there_and_errors_fall_with_its_order),
+        cmocka_unit_test(references_agree_ten_times_better_than_the_best_row),
+        cmocka_unit_test(the_span_ends_before_the_first_break_and_ensembles_go_past_it),
+        cmocka_unit_test(it_ends_when_somebody_wants_it_to),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
