@@ -26,7 +26,6 @@ struct contact_pair {
 
 struct contact {
     double thickness, friction; /* skins are kept between half of it and all of it apart */
-    double stray;
     struct contact_tree tree;
 
     /* What the list was made for; the state, since other lists could find other touches first. */
@@ -35,6 +34,7 @@ struct contact {
         uint64_t made;         /* lists made so far */
         uint64_t made_in;      /* the step, from 1 */
         uint64_t is_awake;     /* 1: the last step had pairs to look at */
+        double stray;          /* how far a point may be from `to` while the list holds */
         uint64_t wakes, zones; /* so far: wakes; steps that needed a rigid zone */
     } memory;
     uint64_t listed;       /* memory.made of the list at hand; another number: to be made again */

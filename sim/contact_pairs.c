@@ -1,6 +1,7 @@
 /* The list of pairs that can come near each other, and how long it holds. */
 #include "common/vec3.h"
 #include "sim/contact.h"
+#include "sim/rows.h"
 
 #include <string.h>
 
@@ -76,7 +77,7 @@ static void take_pair(const struct finder *f, struct contact_pair pair)
     uint32_t p[4];
     double from[4][3], to[4][3];
     struct ccd_touch touch;
-    const double room = 2 * c->stray + c->thickness;
+    const double room = 2 * c->memory.stray + c->thickness;
     contact_points(f->sim, &pair, p);
     if (shares_point(&pair, p) || is_apart(c, &pair, p, room))
         return;
@@ -113,7 +114,7 @@ static void take_triangles(void *context, uint32_t t, uint32_t u)
 enum status contact_list_find(struct sim *sim, struct error *err)
 {
     struct contact *c = sim->contact;
-    struct contact_ways ways = {c->from, c->to, c->stray, c->thickness};
+    struct contact_ways ways = {c->from, c->to, c->memory.stray, c->thickness};
     struct finder finder = {sim, c};
     if (c->owned_broken != sim->broken || c->listed + 1 != c->memory.made)
         find_owned(sim, c);
@@ -131,12 +132,28 @@ enum status contact_list_find(struct sim *sim, struct error *err)
         sim->scene->path, sim->time, c->pair_count, c->pair_capacity, c->thickness);
 }
 
+/* A tenth of the mean edge as it is now: more, and neighbours in a sheet come onto the list; less, and it is made more often. Of a sample. */
+static double choose_stray(const struct sim *sim)
+{
+    enum { SAMPLE = 512 };
+    double least = INFINITY;
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++) {
+        const uint32_t stride = (b->edge_end - b->edge_begin) / SAMPLE + 1;
+        double sum = 0, count = 0;
+        for (uint32_t e = b->edge_begin; e < b->edge_end; e += stride, count++)
+            sum += vec3_distance(sim->position[sim->edge_point[e][0]], sim->position[sim->edge_point[e][1]]);
+        least = fmin(least, fmin(sum / count, 4 * b->mean_rest_length));
+    }
+    return least / 10;
+}
+
 enum status contact_list_make(struct sim *sim, struct error *err)
 {
     struct contact *c = sim->contact;
     memcpy(c->from, sim->before, sim->point_count * sizeof *c->from);
     memcpy(c->to, sim->position, sim->point_count * sizeof *c->to);
     c->memory.made++;
+    c->memory.stray = choose_stray(sim);
     c->memory.made_in = sim->steps;
     return contact_list_find(sim, err);
 }
@@ -211,7 +228,7 @@ static bool balloon_holds(struct sim *sim, const struct sim_balloon *b)
     if (is_alone(sim) && c->memory.made_in != sim->steps)
         motion = motion_of(sim, b);
     const double growth = motion.growth < 1 ? motion.growth : 1,
-                 allowed = growth * c->stray - (1 - growth) * c->thickness / 2;
+                 allowed = growth * c->memory.stray - (1 - growth) * c->thickness / 2;
     double largest = 0;
     sim_each_part(sim, stray_part, &(struct stray_job){&motion, b});
     for (size_t i = 0; i < sim->part_count; i++)

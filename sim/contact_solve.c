@@ -226,7 +226,8 @@ enum status contact_settle(struct sim *sim, struct error *err)
     if (status)
         return status;
     note_awake(sim);
-    memset(c->stirred, 1, sim->point_count);
+    if (c->pair_count > 0)
+        memset(c->stirred, 1, sim->point_count);
     bool hits = c->pair_count > 0 && contact_look(sim, false);
     for (int round = 0; hits && round < ROUNDS_MAX && !status; round++) {
         touched = true;

@@ -125,7 +125,6 @@ static enum status open(struct sim *sim, struct sim_balloon *balloon, struct err
     const struct scene_contact *given = &sim->scene->contact;
     c->thickness = given->thickness > 0 ? given->thickness : least_edge(sim) / 10;
     c->friction = given->friction;
-    c->stray = least_edge(sim) / 10;
     c->owned_broken = UINT32_MAX;
     if (!allocate(sim, c))
         return error_no_memory(err, "contact");
