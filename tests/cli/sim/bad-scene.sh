@@ -32,4 +32,4 @@ for key in spring damping threshold pressure; do
         refused 1 "^balloon-sim: --set: $key " balloon-sim m.ply --set "balloons[0].$key=$value"
     done
 done
-refused 1 'gas.*unknown|unknown key `gas`' balloon-sim m.ply --set 'balloons[0].gas.moles=1'
+refused 1 'unknown key `gass` .*did you mean `gas`' balloon-sim m.ply --set 'balloons[0].gass.fill=1'
