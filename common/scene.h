@@ -110,6 +110,18 @@ struct scene_drag {
     double air_density, coefficient, wind[3];
 };
 
+struct scene_viscosity {
+    bool on;
+    unsigned line;
+    double ratio, time; /* of the arm's spring to the edge's; s */
+};
+
+struct scene_plasticity {
+    bool on;
+    unsigned line;
+    double yield, hardening; /* force; force/length */
+};
+
 struct scene_membrane {
     bool on;
     unsigned line;
@@ -135,6 +147,8 @@ struct scene_balloon {
     double opacity, shininess; /* at rest */
     struct scene_spring_by_height spring_by_height;
     struct scene_rip rip;
+    struct scene_viscosity viscosity;
+    struct scene_plasticity plasticity;
     struct scene_membrane membrane;
     struct scene_gas gas;
     struct scene_tube tube;

@@ -27,11 +27,21 @@ static enum status check_ogden(const struct scene *scene, size_t number, struct 
     return STATUS_OK;
 }
 
+static enum status check_viscosity(const struct scene *scene, size_t number, struct error *err)
+{
+    const struct scene_viscosity *block = &scene->balloons[number].viscosity;
+    if (!block->on || block->time >= scene->time.step)
+        return STATUS_OK;
+    return scene_contradiction(scene, number, "viscosity", block->line, err,
+                               "time is %g, shorter than time.step %g, which cannot follow it", block->time,
+                               scene->time.step);
+}
+
 enum status scene_check_membrane(const struct scene *scene, size_t number, struct error *err)
 {
     const struct scene_balloon *b = &scene->balloons[number];
     if (!b->membrane.on)
-        return STATUS_OK;
+        return check_viscosity(scene, number, err);
     if (!(b->membrane.thickness > 0))
         return scene_contradiction(scene, number, "membrane", b->membrane.line, err,
                                    "give thickness; that of a toy balloon is about a hundredth of its "
@@ -40,6 +50,10 @@ enum status scene_check_membrane(const struct scene *scene, size_t number, struc
     if (b->spring_by_height.on)
         return scene_contradiction(scene, number, "membrane", b->membrane.line, err,
                                    "it has no springs for spring_by_height; leave out one of the two");
+    if (b->viscosity.on || b->plasticity.on)
+        return scene_contradiction(scene, number, "membrane", b->membrane.line, err,
+                                   "it has no springs for %s; leave out one of the two",
+                                   b->viscosity.on ? "viscosity" : "plasticity");
     if (!strcmp(scene_integrator_names[scene->time.integrator], "xpbd"))
         return scene_contradiction(scene, number, "membrane", b->membrane.line, err,
                                    "time.integrator \"xpbd\" moves springs only; take \"auto\"");

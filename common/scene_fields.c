@@ -61,6 +61,8 @@ const char *const scene_law_names[] = {"neo-hookean", "mooney-rivlin", "gent", "
 #define NEEDLES_ROW(...)          ROW(scene_needles, __VA_ARGS__)
 #define CONTACT_ROW(...)          ROW(scene_contact, __VA_ARGS__)
 #define MEMBRANE_ROW(...)         ROW(scene_membrane, __VA_ARGS__)
+#define VISCOSITY_ROW(...)        ROW(scene_viscosity, __VA_ARGS__)
+#define PLASTICITY_ROW(...)       ROW(scene_plasticity, __VA_ARGS__)
 #define SCHEDULE_ROW(...)         ROW(scene_schedule, __VA_ARGS__)
 
 static const struct scene_field time_fields[] = {SCENE_TIME_FIELDS(TIME_ROW)};
@@ -80,6 +82,8 @@ static const struct scene_field string_fields[] = {SCENE_STRING_FIELDS(STRING_RO
 static const struct scene_field gravity_fields[] = {SCENE_GRAVITY_FIELDS(GRAVITY_ROW)};
 static const struct scene_field drag_fields[] = {SCENE_DRAG_FIELDS(DRAG_ROW)};
 static const struct scene_field membrane_fields[] = {SCENE_MEMBRANE_FIELDS(MEMBRANE_ROW)};
+static const struct scene_field viscosity_fields[] = {SCENE_VISCOSITY_FIELDS(VISCOSITY_ROW)};
+static const struct scene_field plasticity_fields[] = {SCENE_PLASTICITY_FIELDS(PLASTICITY_ROW)};
 static const struct scene_field schedule_fields[] = {SCENE_SCHEDULE_FIELDS(SCHEDULE_ROW)};
 
 #define FIELDS(list) list, sizeof(list) / sizeof(list)[0]
@@ -96,6 +100,10 @@ const struct scene_block scene_blocks[] = {
     {"spring_by_height", "balloons", false, FIELDS(spring_by_height_fields), EFFECT(spring_by_height),
      "Spring constants that vary with height, as the skin's thickness does"},
     {"rip", "balloons", false, FIELDS(rip_fields), EFFECT(rip), "An artificial rip"},
+    {"viscosity", "balloons", false, FIELDS(viscosity_fields), EFFECT(viscosity),
+     "Springs that relax: a second spring beside each, on a dashpot"},
+    {"plasticity", "balloons", false, FIELDS(plasticity_fields), EFFECT(plasticity),
+     "Springs that slip when they are pulled too hard, for good"},
     {"membrane", "balloons", false, FIELDS(membrane_fields), EFFECT(membrane),
      "The skin as a membrane of rubber, in place of springs"},
     {"gas", "balloons", false, FIELDS(gas_fields), EFFECT(gas),

@@ -163,6 +163,17 @@
     X(damping, NUMBER, 0, 1e12, "1", "force s/length", 0, "while it is taut", "")                   \
     X(weight, NUMBER, 0, 1e9, "0", "mass", 0, "at the other end; 0: that end is held", "")
 
+#define SCENE_VISCOSITY_FIELDS(X)                                                                 \
+    X(ratio, NUMBER, 0, 1e6, "1", "", 0, "of the second spring's constant to that of the edge's", \
+      "paper, figure 1")                                                                          \
+    X(time, NUMBER, 1e-9, 1e9, "1", "s", 0, "in which its pull falls to 1/e; at least time.step", \
+      "paper, figure 1")
+
+#define SCENE_PLASTICITY_FIELDS(X)                                                                           \
+    X(yield, NUMBER, 0, 1e12, "40", "force", 0, "at which a spring begins to slip", "paper, figure 1")       \
+    X(hardening, NUMBER, 0, 1e12, "0", "force/length", 0, "by which that rises with the way it has slipped", \
+      "paper, figure 1")
+
 #define SCENE_MEMBRANE_FIELDS(X)                                                                          \
     X(law, CHOICE, 0, 0, "\"neo-hookean\"", "", 0, "how stress follows stretch", "Ogden 1972")            \
     X(shear_modulus, NUMBER, 1e-9, 1e15, "20", "force/length^2", 0, "of the rubber, at small strain", "") \

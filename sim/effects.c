@@ -7,6 +7,8 @@ const struct effect *const effects[] = {
     &effect_spring_by_height,
     &effect_rip,
     &effect_membrane,
+    &effect_viscosity,
+    &effect_plasticity,
     &effect_areas,
     &effect_gas,
     &effect_tube, /* after the gas of both balloons */

@@ -7,6 +7,8 @@
 extern const struct effect effect_spring_by_height;
 extern const struct effect effect_rip;
 extern const struct effect effect_membrane;
+extern const struct effect effect_viscosity;
+extern const struct effect effect_plasticity;
 extern const struct effect effect_areas;
 extern const struct effect effect_gas;
 extern const struct effect effect_tube;

@@ -53,9 +53,13 @@ struct sim_balloon {
     double mean_rest_length; /* of its edges */
     bool
         own_thresholds; /* an edge's threshold is over its own rest length: the settings' is that of an edge of length 1 */
-    double breathing_rate;     /* 1/s, for errors of speeds (weights.h) */
-    struct sim_settings *now;  /* one of sim->settings */
-    bool by_area;              /* pressure acts on areas, not on each point alike */
+    double breathing_rate;    /* 1/s, for errors of speeds (weights.h) */
+    struct sim_settings *now; /* one of sim->settings */
+    bool by_area;             /* pressure acts on areas, not on each point alike */
+    uint32_t arms,
+        arm_count; /* the first of its edges' scalars, where springs are viscous (effect_viscosity.c) */
+    double *slip;  /* [slip_count] of its edges, where springs slip (effect_plasticity.c); owned */
+    uint32_t slip_count;
     struct membrane *membrane; /* what acts in place of the springs (membrane.h); NULL: the springs */
     struct gas *gas;           /* what is sealed in (effect_gas.h); NULL: nothing, the pressure is given */
     struct gas_rims *rims;     /* of its holes, by whoever cuts the skin; NULL: there are none */

@@ -146,6 +146,13 @@ static void products_of_pressure_are_the_differences_of_its_forces(void **state)
     check_products(SETTINGS("balloons[0].pressure=100", "balloons[0].damping=0", "balloons[0].spring=0"));
 }
 
+static void products_of_viscous_arms_are_the_differences_of_their_forces(void **state)
+{
+    (void)state;
+    check_products(
+        SETTINGS("balloons[0].pressure=0", "balloons[0].damping=0", "balloons[0].viscosity.ratio=2"));
+}
+
 static void products_of_everything_at_once_are_the_differences(void **state)
 {
     (void)state;
@@ -335,6 +342,7 @@ int main(void)
         cmocka_unit_test(products_of_springs_are_the_differences_of_their_forces),
         cmocka_unit_test(products_of_dampers_are_the_differences_of_their_forces),
         cmocka_unit_test(products_of_pressure_are_the_differences_of_its_forces),
+        cmocka_unit_test(products_of_viscous_arms_are_the_differences_of_their_forces),
         cmocka_unit_test(products_of_everything_at_once_are_the_differences),
         cmocka_unit_test(products_of_pressure_on_areas_are_the_differences_of_its_forces),
         cmocka_unit_test(products_of_gas_are_the_differences_of_its_forces),

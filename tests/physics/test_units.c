@@ -1,0 +1,177 @@
+/* The units of the paper's figure 1 in series and in parallel: creep, relaxation and slip against their closed forms.
+ *
+ * An icosahedron that swells is one spring: all edges have the length c R, and with a pull T in each the five at a point hold 5 T c/2 against the
+ * pressure's force P. Points are light, so that nothing swings. */
+#include "sim/ledger.h"
+#include "unit/balloon.h"
+
+#define UNIT(...)                                                                                   \
+    SETTINGS("balloons[0].radius=10", "balloons[0].point_mass=0.001", "balloons[0].spring=20",      \
+             "balloons[0].threshold=1e300", "time.guard=substep", "time.step=0.01", "time.end=1e6", \
+             "time.integrator=symplectic-euler" __VA_OPT__(, ) __VA_ARGS__)
+
+static double chord(void) /* c */
+{
+    return 1 / sin(2 * M_PI / 5);
+}
+
+/* Under P, the edges' pull. */
+static double pull_of(double pressure)
+{
+    return pressure / (2.5 * chord());
+}
+
+static double mean_elongation(const struct sim *sim, double rest)
+{
+    double sum = 0;
+    for (uint32_t e = 0; e < sim->edge_count; e++)
+        sum += sim_edge_length(sim, e) / sim->edge_count;
+    return sum - rest;
+}
+
+static void run_to(struct balloon *b, double time)
+{
+    while (b->sim.time < time - 1e-9)
+        steps(b, 1);
+}
+
+/* Spring and dashpot side by side (Kelvin and Voigt): e = T/k (1 - exp(-k t/d)). The error is of the first order in the substeps and in the
+ * masses that are not quite 0: m/d = 2e-4 s of 0.25. */
+static void a_damped_spring_creeps_as_kelvin_and_voigt_say(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 0, UNIT("balloons[0].damping=5", "balloons[0].pressure=100"));
+    const double final = pull_of(100) / 20, rest = b.sim.rest_length[0];
+    for (double time = 0.1; time < 1.5; time += 0.1) {
+        run_to(&b, time);
+        assert_near(mean_elongation(&b.sim, rest) / final, 1 - exp(-20 * b.sim.time / 5), 0.005);
+    }
+    close_balloon(&b);
+}
+
+/* A Maxwell arm beside the spring, c = 1: at once e = T/(2 k); then it creeps to T/k with the time T (1 + c): e = T/k (1 - exp(-t/2)/2). */
+static void a_viscous_spring_creeps_as_its_units_say(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 0,
+                 UNIT("balloons[0].damping=0.1", "balloons[0].pressure=100", "balloons[0].viscosity.ratio=1",
+                      "balloons[0].viscosity.time=1"));
+    const double final = pull_of(100) / 20, rest = b.sim.rest_length[0];
+    for (double time = 0.2; time < 6; time += 0.4) {
+        run_to(&b, time);
+        assert_near(mean_elongation(&b.sim, rest) / final, 1 - exp(-b.sim.time / 2) / 2, 0.006);
+    }
+    close_balloon(&b);
+}
+
+/* Held at a length its pull relaxes: f = k e (1 + c exp(-t/T)). */
+static void a_viscous_spring_that_is_held_relaxes(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 0,
+                 UNIT("balloons[0].damping=0", "balloons[0].pressure=0", "balloons[0].viscosity.ratio=3",
+                      "balloons[0].viscosity.time=0.5", "balloons[0].point_mass=1e9"));
+    struct sim *sim = &b.sim;
+    const double rest = sim->rest_length[0], e = 0.2 * rest;
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        for (int i = 0; i < 3; i++)
+            sim->position[p][i] *= 1.2;
+    for (double time = 0; time < 2; time += 0.25) {
+        run_to(&b, time);
+        sim_forces(sim);
+        const double force = sqrt(sim->force[0][0] * sim->force[0][0] + sim->force[0][1] * sim->force[0][1] +
+                                  sim->force[0][2] * sim->force[0][2]);
+        /* Euler's exp(-t/T) with h/T = .02 is off by t h/(2 T^2) of itself: 1 % at T. */
+        assert_near(force / (2.5 * chord()) / (20 * e), 1 + 3 * exp(-sim->time / 0.5), 3 * 0.01);
+    }
+    close_balloon(&b);
+}
+
+/* Past the yield y = 20 with H = 10: it slips until T = y + H s, and what has slipped stays when the pressure is gone. */
+static void a_spring_that_slips_keeps_its_length(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 0,
+                 UNIT("balloons[0].damping=1", "balloons[0].pressure=100", "balloons[0].plasticity.yield=20",
+                      "balloons[0].plasticity.hardening=10"));
+    const double rest = b.sim.rest_length[0], pull = pull_of(100), slip = (pull - 20) / 10;
+    run_to(&b, 5);
+    assert_near(mean_elongation(&b.sim, rest), pull / 20 + slip, 1e-3);
+    b.sim.balloons[0].now->pressure = 0;
+    run_to(&b, 10);
+    assert_near(mean_elongation(&b.sim, rest), slip, 1e-3);
+    close_balloon(&b);
+}
+
+/* Below the yield nothing slips, and no bit is another than without the block. */
+static void a_spring_that_is_not_pulled_hard_does_not_slip(void **state)
+{
+    (void)state;
+    struct balloon b, plain;
+    open_balloon(&b, 1, UNIT("balloons[0].plasticity.yield=1e6"));
+    open_balloon(&plain, 1, UNIT());
+    steps(&b, 50);
+    steps(&plain, 50);
+    assert_memory_equal(b.sim.position, plain.sim.position, b.sim.point_count * sizeof *b.sim.position);
+    close_balloon(&b);
+    close_balloon(&plain);
+}
+
+/* What the arms hold and take is in the ledger: Euler's error, with a step of T/100. */
+static void viscosity_is_in_the_ledger(void **state)
+{
+    (void)state;
+    struct balloon b;
+    struct error err = {0};
+    open_balloon(&b, 1,
+                 UNIT("balloons[0].damping=0.1", "balloons[0].point_mass=0.1",
+                      "balloons[0].viscosity.ratio=1", "balloons[0].pressure=0", "time.step=0.002",
+                      "balloons[0].viscosity.time=0.2"));
+    for (uint32_t p = 0; p < b.sim.point_count; p++)
+        b.sim.position[p][0] *= 1.2;
+    assert_ok(ledger_open(&b.sim, &err), &err);
+    steps(&b, 500);
+    const struct sim_measures m = sim_measure(&b.sim);
+    const struct ledger_balance balance = ledger_balance(&b.sim, &m);
+    assert_true(balance.dissipated > 1);
+    assert_near(balance.error, 0, 0.02 * balance.dissipated);
+    close_balloon(&b);
+}
+
+static void viscous_springs_are_equal_for_any_number_of_threads(void **state)
+{
+    (void)state;
+    struct balloon b;
+    struct error err = {0};
+    open_balloon(&b, 2, UNIT("balloons[0].viscosity.ratio=1", "balloons[0].plasticity.yield=2"));
+    uint64_t first = 0;
+    for (unsigned workers = 1; workers < 6; workers += 2) {
+        struct sim sim;
+        assert_ok(sim_open(&sim, &b.scene, &b.mesh, workers, &err), &err);
+        for (int i = 0; i < 30; i++)
+            assert_ok(sim_step(&sim, &err), &err);
+        if (workers == 1)
+            first = sim_hash(&sim);
+        assert_true(sim_hash(&sim) == first);
+        sim_clear(&sim);
+    }
+    close_balloon(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_damped_spring_creeps_as_kelvin_and_voigt_say),
+        cmocka_unit_test(a_viscous_spring_creeps_as_its_units_say),
+        cmocka_unit_test(a_viscous_spring_that_is_held_relaxes),
+        cmocka_unit_test(a_spring_that_slips_keeps_its_length),
+        cmocka_unit_test(a_spring_that_is_not_pulled_hard_does_not_slip),
+        cmocka_unit_test(viscosity_is_in_the_ledger),
+        cmocka_unit_test(viscous_springs_are_equal_for_any_number_of_threads),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
