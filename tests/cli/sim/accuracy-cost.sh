@@ -18,7 +18,7 @@ only_files cube.oct cube.ply cost.tsv
 
 # the setting is what --set takes
 setting=$(awk -F'\t' '$1 == "verlet" { print $2; exit }' cost.tsv)
-expect 0 balloon-sim cube.ply $calm --set time.integrator=verlet --set "$setting"
+expect 0 balloon-sim cube.ply $calm --set time.integrator=verlet --set "$setting" --log v.tsv
 
 if command -v gnuplot >/dev/null; then
     expect 0 balloon-sim cube.ply $calm --accuracy-cost cost.svg
