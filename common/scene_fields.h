@@ -143,7 +143,7 @@
 
 #define SCENE_DRAG_FIELDS(X)                                                                            \
     X(air_density, NUMBER, 0, 1e9, "1.2", "mass/length^3", 0, "of the air", "1.2 kg/m^3 at 20 degrees") \
-    X(coefficient, NUMBER, 0, 100, "1.1", "", 0, "of a plate square to the wind", "Hoerner 1965: 1.1")  \
+    X(coefficient, NUMBER, 0, 100, "0.47", "", 0, "of drag", "Hoerner 1965: sphere .47, plate 1.1")     \
     X(wind, VECTOR, -1e6, 1e6, "[0.0, 0.0, 0.0]", "length/s", 0, "speed of the air", "")
 
 #define SCENE_PINS_FIELDS(X)                                                                                 \

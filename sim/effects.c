@@ -16,6 +16,10 @@ const struct effect *const effects[] = {
     &effect_ground,
     &effect_obstacles,
     &effect_contact,
+    &effect_gravity,
+    &effect_drag,
+    &effect_string,
+    &effect_pins, /* takes away what the others add */
     NULL,
 };
 

@@ -12,6 +12,10 @@ extern const struct effect effect_plasticity;
 extern const struct effect effect_areas;
 extern const struct effect effect_gas;
 extern const struct effect effect_tube;
+extern const struct effect effect_gravity;
+extern const struct effect effect_drag;
+extern const struct effect effect_string;
+extern const struct effect effect_pins;
 extern const struct effect effect_needles;
 extern const struct effect effect_ground; /* effect_obstacles.c */
 extern const struct effect effect_obstacles;

@@ -28,6 +28,8 @@ struct guard;
 struct hand;
 struct guard_rows;
 struct gas;
+struct pins;
+struct string;
 struct obstacles;
 struct contact;
 struct gas_rims;
@@ -62,6 +64,8 @@ struct sim_balloon {
     uint32_t slip_count;
     struct membrane *membrane; /* what acts in place of the springs (membrane.h); NULL: the springs */
     struct gas *gas;           /* what is sealed in (effect_gas.h); NULL: nothing, the pressure is given */
+    struct pins *pins;         /* likewise what holds it (effect_pins.c), */
+    struct string *string;     /* and what it is tied to (effect_string.c) */
     struct gas_rims *rims;     /* of its holes, by whoever cuts the skin; NULL: there are none */
 };
 

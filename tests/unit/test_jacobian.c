@@ -175,6 +175,21 @@ static void products_of_gas_are_the_differences_of_its_forces(void **state)
                          "balloons[0].gas.density=0.0005", "balloons[0].damping=0"));
 }
 
+static void products_of_drag_are_the_differences_of_its_forces(void **state)
+{
+    (void)state;
+    check_products(SETTINGS("balloons[0].pressure=0", "balloons[0].damping=0", "balloons[0].spring=0",
+                            "drag.air_density=0.001", "drag.wind=[300, 100, 50]"));
+}
+
+static void products_of_string_and_pins_are_the_differences_of_their_forces(void **state)
+{
+    (void)state;
+    check_products(SETTINGS("balloons[0].pressure=0", "balloons[0].damping=3", "balloons[0].string.reach=30",
+                            "balloons[0].string.slack=0.5", "balloons[0].pins.place=[0.0, 1.0, 0.0]",
+                            "balloons[0].pins.reach=30"));
+}
+
 /* a K dx + b D dx in one go: the product is linear, to the rounding of its sums of some 20 terms of at most 1e3. */
 static void factors_scale_the_two_parts_of_a_product(void **state)
 {
@@ -346,6 +361,8 @@ int main(void)
         cmocka_unit_test(products_of_everything_at_once_are_the_differences),
         cmocka_unit_test(products_of_pressure_on_areas_are_the_differences_of_its_forces),
         cmocka_unit_test(products_of_gas_are_the_differences_of_its_forces),
+        cmocka_unit_test(products_of_drag_are_the_differences_of_its_forces),
+        cmocka_unit_test(products_of_string_and_pins_are_the_differences_of_their_forces),
         cmocka_unit_test(factors_scale_the_two_parts_of_a_product),
         cmocka_unit_test(diagonal_blocks_are_those_of_the_products),
         cmocka_unit_test(moving_as_one_changes_no_force),

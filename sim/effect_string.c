@@ -1,0 +1,183 @@
+/*
+ * A string that is tied to a patch of the skin, as to a balloon's neck: while it is longer than its length L it pulls with
+ * k (|l| - L) + d v . l/|l|, but never pushes, at the mean of the patch's points, alike on each. Its other end is held, or carries a
+ * weight, which is no point of the skin: its place and speed are scalars, integrated along.
+ */
+#include "common/vec3.h"
+#include "sim/effects.h"
+#include "sim/guard.h"
+#include "sim/patch.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { STRING_PLACE, STRING_SPEED = 3, STRING_SCALARS = 6 };
+
+struct string {
+    const struct scene_string *scene;
+    uint32_t *point; /* [count] owned */
+    uint32_t count;
+    double length;
+    double end[3]; /* where it is held, without a weight */
+    uint32_t scalar;
+};
+
+static bool wanted(const struct scene_balloon *balloon)
+{
+    return balloon->string.on;
+}
+
+static void mean_of(const struct string *string, double (*rows)[4], double mean[3])
+{
+    for (int i = 0; i < 3; i++) {
+        mean[i] = 0;
+        for (uint32_t k = 0; k < string->count; k++)
+            mean[i] += rows[string->point[k]][i] / string->count;
+    }
+}
+
+static enum status open(struct sim *sim, struct sim_balloon *b, struct error *err)
+{
+    struct string *string = b->string = calloc(1, sizeof *string);
+    if (!string)
+        return error_no_memory(err, "the string");
+    string->scene = &b->scene->string;
+    enum status status = patch_find(sim, b, string->scene->place, string->scene->reach, &string->point,
+                                    &string->count, err);
+    if (!status && string->scene->weight > 0)
+        status = sim_add_scalars(sim, STRING_SCALARS, &string->scalar, err);
+    if (status)
+        return status;
+    double mean[3];
+    mean_of(string, sim->position, mean);
+    for (int i = 0; i < 3; i++)
+        string->end[i] = b->centre[i] + string->scene->to[i] * b->radius;
+    string->length = string->scene->slack * vec3_distance(mean, string->end);
+    if (string->scene->weight > 0)
+        memcpy(&sim->scalar[string->scalar + STRING_PLACE], string->end, sizeof string->end);
+    return STATUS_OK;
+}
+
+static void close(struct sim *sim, struct sim_balloon *b)
+{
+    (void)sim;
+    if (b->string)
+        free(b->string->point);
+    free(b->string);
+    b->string = NULL;
+}
+
+/* From the end to the patch. */
+struct pull {
+    double along[3], speed[3]; /* unit; of the patch, seen from the end */
+    double length, tension;    /* 0 while it is slack */
+};
+
+static struct pull pull_of(const struct sim *sim, const struct string *string)
+{
+    const bool weight = string->scene->weight > 0;
+    const double *end = weight ? &sim->scalar[string->scalar + STRING_PLACE] : string->end;
+    struct pull pull;
+    double l[3];
+    mean_of(string, sim->position, l);
+    mean_of(string, sim->velocity, pull.speed);
+    vec3_sub(l, end, l);
+    pull.length = vec3_length(l);
+    for (int i = 0; i < 3; i++) {
+        pull.speed[i] -= weight ? sim->scalar[string->scalar + STRING_SPEED + (uint32_t)i] : 0;
+        pull.along[i] = pull.length > 0 ? l[i] / pull.length : 0;
+    }
+    pull.tension = 0;
+    if (pull.length > string->length)
+        pull.tension = fmax(0, string->scene->stiffness * (pull.length - string->length) +
+                                   string->scene->damping * vec3_dot(pull.speed, pull.along));
+    return pull;
+}
+
+static void apply(struct sim *sim, struct sim_balloon *b)
+{
+    const struct string *string = b->string;
+    const struct pull pull = pull_of(sim, string);
+    for (uint32_t k = 0; k < string->count; k++)
+        for (int i = 0; i < 3; i++)
+            sim->force[string->point[k]][i] -= pull.tension * pull.along[i] / string->count;
+    if (string->scene->weight == 0)
+        return;
+    double *rate = &sim->scalar_rate[string->scalar], *scalar = &sim->scalar[string->scalar];
+    for (int i = 0; i < 3; i++) {
+        const double falling = sim->scene->gravity.on ? sim->scene->gravity.acceleration[i] : 0;
+        rate[STRING_PLACE + i] = scalar[STRING_SPEED + i];
+        rate[STRING_SPEED + i] = falling + pull.tension * pull.along[i] / string->scene->weight;
+    }
+}
+
+/* F = -T u: dF = -(dT u + T du), du = (dl - u (u . dl))/|l|, dT = k u . dl + d (u . dv + v . du). The weight is taken to stay where it is. */
+static void product(struct sim *sim, struct sim_balloon *b, double a, double (*dx)[4], double f,
+                    double (*dv)[4], double (*df)[4])
+{
+    const struct string *string = b->string;
+    const struct pull pull = pull_of(sim, string);
+    if (pull.tension == 0)
+        return;
+    double dl[3], ds[3], du[3];
+    mean_of(string, dx, dl);
+    mean_of(string, dv, ds);
+    const double stretch = vec3_dot(pull.along, dl);
+    for (int i = 0; i < 3; i++)
+        du[i] = (dl[i] - pull.along[i] * stretch) / pull.length;
+    const double dt = a * (string->scene->stiffness * stretch +
+                           string->scene->damping * vec3_dot(pull.speed, du)) +
+                      f * string->scene->damping * vec3_dot(pull.along, ds);
+    for (uint32_t k = 0; k < string->count; k++)
+        for (int i = 0; i < 3; i++)
+            df[string->point[k]][i] -= (dt * pull.along[i] + a * pull.tension * du[i]) / string->count;
+}
+
+/* A point feels its share; and a weight that swings faster than the point would is made up for by more of it. */
+static void bound(const struct sim *sim, const struct sim_balloon *b, const struct guard_rows *rows)
+{
+    const struct string *string = b->string;
+    for (uint32_t k = 0; k < string->count; k++) {
+        const uint32_t p = string->point[k];
+        const double share = 1.0 / string->count,
+                     more = string->scene->weight > 0 ? sim->mass[p] / string->scene->weight : 0;
+        rows->stiffness[p] += 2 * string->scene->stiffness * (share + more);
+        rows->damping[p] += 2 * string->scene->damping * (share + more);
+    }
+}
+
+static double energy(struct sim *sim, struct sim_balloon *b)
+{
+    const struct string *string = b->string;
+    const double stretched = fmax(0, pull_of(sim, string).length - string->length);
+    double sum = string->scene->stiffness * stretched * stretched / 2;
+    const double weight = string->scene->weight, *scalar = weight > 0 ? &sim->scalar[string->scalar] : NULL;
+    for (int i = 0; i < 3 && weight > 0; i++) {
+        const double falling = sim->scene->gravity.on ? sim->scene->gravity.acceleration[i] : 0;
+        sum += weight *
+               (scalar[STRING_SPEED + i] * scalar[STRING_SPEED + i] / 2 - falling * scalar[STRING_PLACE + i]);
+    }
+    return sum;
+}
+
+/* Whatever the tension is beyond the spring's. */
+static void power(struct sim *sim, struct sim_balloon *b, double *dissipated, double *work)
+{
+    (void)work;
+    const struct pull pull = pull_of(sim, b->string);
+    const double spring = b->string->scene->stiffness * fmax(0, pull.length - b->string->length);
+    *dissipated += (pull.tension - spring) * vec3_dot(pull.speed, pull.along);
+}
+
+const struct effect effect_string = {.name = "string",
+                                     .phase = EFFECT_FORCES,
+                                     .wanted = wanted,
+                                     .open = open,
+                                     .close = close,
+                                     .apply = apply,
+                                     .product = product,
+                                     .bound = bound,
+                                     .energy = energy,
+                                     .power = power,
+                                     .damps = true,
+                                     .source = "Hooke 1678"};
