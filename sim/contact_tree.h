@@ -17,6 +17,8 @@
 
 #include "sim/sim.h"
 
+enum { CONTACT_JOBS = 4096 }; /* that a search is divided into at the most */
+
 struct contact_box {
     double low[3], high[3];
 };
@@ -37,7 +39,7 @@ struct contact_tree {
     uint32_t *order;          /* [triangle_count] triangles as the leaves list them; owned */
     uint32_t *root;           /* [balloon_count] owned */
     struct contact_box *box;  /* [triangle_count] owned */
-    struct contact_job *jobs; /* [JOBS] two nodes, or one with itself; owned */
+    struct contact_job *jobs; /* [CONTACT_JOBS] two nodes, or one with itself; owned */
     uint32_t job_count;
     uint32_t *fit; /* [fit_count] nodes that are fitted on their own, with all below; owned */
     uint32_t fit_count;

@@ -1,0 +1,18 @@
+# Ground, obstacles, needles and contact: what cannot be is refused with its line; what is there runs to the same bits on any threads.
+cp "$PROGRAMS/data/sphere.ply" "$PROGRAMS/data/pressed.cfg" .
+printf 'balloons = ( { mesh = "sphere.ply"; } );\nneedles = (\n  { at = 1.0; }\n);\n' >needle.cfg
+refused 1 'needle.cfg:3: needles\[0\] names no point; give from' balloon-sim needle.cfg
+printf 'balloons = ( { mesh = "sphere.ply"; } );\nground = { height = 10.0; };\n' >ground.cfg
+refused 1 'ground.cfg:2: balloons\[0\] begins inside the ground' balloon-sim ground.cfg
+printf 'balloons = ( { mesh = "sphere.ply"; }, { mesh = "sphere.ply"; position = [9.0, 0.0, 0.0]; } );\ncontact = { };\n' >cross.cfg
+refused 1 'cross.cfg:2: contact: the skins of balloons\[0\] and balloons\[1\] cross' balloon-sim cross.cfg
+printf 'balloons = ( { mesh = "sphere.ply"; } );\nobstacle = ( );\n' >name.cfg
+refused 1 'name.cfg:2: unknown key `obstacle` .did you mean `obstacles`' balloon-sim name.cfg
+expect 0 balloon-sim pressed.cfg --explain
+stdout_has '^on	contact	'
+stdout_has '^on	ground	'
+expect 0 balloon-sim pressed.cfg -q --hash --threads 1 --set time.end=0.8
+tail -n 1 .stdout >one
+expect 0 balloon-sim pressed.cfg -q --hash --threads 3 --set time.end=0.8
+tail -n 1 .stdout >three
+cmp -s one three || fail "another hash with three threads"
