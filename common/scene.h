@@ -64,6 +64,19 @@ struct scene_rip {
     double length;       /* of the cut, in mean radii */
 };
 
+struct scene_fracture {
+    bool on;
+    unsigned line;
+    int mode; /* enum scene_fracture_mode */
+    double strength, toughness, weakness;
+    int seed;
+    double tip_speed; /* over the speed of shear waves */
+    double branching; /* a stretch */
+    double spacing;   /* in mean radii, as toughness and reserve are */
+    double smallest;  /* share of the skin at rest */
+    double reserve;
+};
+
 struct scene_gas {
     bool on;
     unsigned line;
@@ -149,6 +162,7 @@ struct scene_balloon {
     struct scene_rip rip;
     struct scene_viscosity viscosity;
     struct scene_plasticity plasticity;
+    struct scene_fracture fracture;
     struct scene_membrane membrane;
     struct scene_gas gas;
     struct scene_tube tube;
@@ -217,6 +231,7 @@ extern const char *const scene_guard_names[];
 extern const char *const scene_pressure_on_names[];
 extern const char *const scene_process_names[];
 extern const char *const scene_stereo_names[];
+extern const char *const scene_mode_names[];
 extern const char *const scene_squeezed_names[];
 extern const char *const scene_style_names[];
 extern const char *const scene_order_names[];
@@ -234,6 +249,7 @@ enum scene_order { SCENE_ORDER_NONE, SCENE_ORDER_SORT, SCENE_ORDER_PEEL, SCENE_O
 enum scene_stiffness { SCENE_UNIFORM, SCENE_COTANGENT };
 enum scene_threshold_of { SCENE_OF_MEAN, SCENE_OF_EDGE };
 enum scene_law { SCENE_NEO_HOOKEAN, SCENE_MOONEY_RIVLIN, SCENE_GENT, SCENE_OGDEN };
+enum scene_fracture_mode { SCENE_FRACTURE_TEAR, SCENE_FRACTURE_PAPER };
 enum scene_stereo {
     SCENE_MONO,
     SCENE_PARALLEL,

@@ -21,6 +21,7 @@ const char *const scene_integrator_names[] = {"symplectic-euler",
 const char *const scene_guard_names[] = {"substep", "refuse", "off", NULL};
 const char *const scene_pressure_on_names[] = {"points", "areas", NULL};
 const char *const scene_process_names[] = {"isothermal", "adiabatic", NULL};
+const char *const scene_mode_names[] = {"tear", "paper", NULL};
 const char *const scene_stereo_names[] = {"mono",       "parallel", "crossed", "over-under", "red-cyan",
                                           "interlaced", "left",     "right",   NULL};
 const char *const scene_squeezed_names[] = {"no", "yes", NULL};
@@ -63,6 +64,7 @@ const char *const scene_law_names[] = {"neo-hookean", "mooney-rivlin", "gent", "
 #define MEMBRANE_ROW(...)         ROW(scene_membrane, __VA_ARGS__)
 #define VISCOSITY_ROW(...)        ROW(scene_viscosity, __VA_ARGS__)
 #define PLASTICITY_ROW(...)       ROW(scene_plasticity, __VA_ARGS__)
+#define FRACTURE_ROW(...)         ROW(scene_fracture, __VA_ARGS__)
 #define SCHEDULE_ROW(...)         ROW(scene_schedule, __VA_ARGS__)
 
 static const struct scene_field time_fields[] = {SCENE_TIME_FIELDS(TIME_ROW)};
@@ -84,6 +86,7 @@ static const struct scene_field drag_fields[] = {SCENE_DRAG_FIELDS(DRAG_ROW)};
 static const struct scene_field membrane_fields[] = {SCENE_MEMBRANE_FIELDS(MEMBRANE_ROW)};
 static const struct scene_field viscosity_fields[] = {SCENE_VISCOSITY_FIELDS(VISCOSITY_ROW)};
 static const struct scene_field plasticity_fields[] = {SCENE_PLASTICITY_FIELDS(PLASTICITY_ROW)};
+static const struct scene_field fracture_fields[] = {SCENE_FRACTURE_FIELDS(FRACTURE_ROW)};
 static const struct scene_field schedule_fields[] = {SCENE_SCHEDULE_FIELDS(SCHEDULE_ROW)};
 
 #define FIELDS(list) list, sizeof(list) / sizeof(list)[0]
@@ -124,6 +127,8 @@ const struct scene_block scene_blocks[] = {
      "A list: points that move and start tears where they meet skin"},
     {"contact", "", false, FIELDS(contact_fields), offsetof(struct scene, contact), CALLED(contact),
      "Balloons do not pass through each other, nor through themselves"},
+    {"fracture", "balloons", false, FIELDS(fracture_fields), EFFECT(fracture),
+     "How the skin gives way; without the block as the paper has it"},
     {"schedule", "", true, FIELDS(schedule_fields), 0, SIZE_MAX, SIZE_MAX,
      "A list: one block { at = ...; and the keys that change then }"},
 };

@@ -189,6 +189,24 @@
     X(viscosity, NUMBER, 0, 1e12, "0.5", "force s/length^2", 0,                                           \
       "stress over rate of stretch, in the skin's plane", "Kelvin and Voigt")
 
+#define SCENE_FRACTURE_FIELDS(X)                                                                             \
+    X(mode, CHOICE, 0, 0, "\"tear\"", "", 0,                                                                 \
+      "tear: the skin splits along cracks; paper: edges let go at the threshold", "paper 3.5")               \
+    X(strength, NUMBER, 1.01, 100, "2.3", "", 0, "whole skin tears where it is stretched so much both ways", \
+      "Petersan et al., Phys. Rev. Lett. 93 (2004) 015504: rubber cracks near 2")                            \
+    X(toughness, NUMBER, 0, 1e6, "0.015", "radii", 0,                                                        \
+      "energy that an area of crack takes, over the shear modulus", "Griffith 1921")                         \
+    X(weakness, NUMBER, 0, 0.99, "0.05", "", 0, "scatter of the strength from place to place", "")           \
+    X(seed, WHOLE, 0, 2147483647, "1", "", 0, "of that scatter: same seed, same burst", "")                  \
+    X(tip_speed, NUMBER, 0.01, 1e3, "2.5", "", 0, "of a crack's tip at the most, over that of shear waves",  \
+      "Petersan et al. 2004: cracks in rubber outrun shear waves")                                           \
+    X(branching, NUMBER, 1, 100, "1.68", "", 0, "cracks fork where skin is stretched so much both ways",     \
+      "Moulinet & Adda-Bedia, Phys. Rev. Lett. 115 (2015) 184301")                                           \
+    X(spacing, NUMBER, 0, 10, "0.9", "radii", 0, "that a crack runs before it forks again, there", "")       \
+    X(smallest, NUMBER, 0, 0.5, "0.002", "", 0, "no piece is cut off with less than this share of the skin", \
+      "")                                                                                                    \
+    X(reserve, NUMBER, 1, 1e4, "100", "radii", 0, "length of all cracks that memory is set aside for", "")
+
 #define SCENE_SCHEDULE_FIELDS(X)                                                                \
     X(at, NUMBER, 0, 1e9, "0", "s", 0, "when the other keys of this entry change", "paper 3.5") \
     X(balloon, WHOLE, -1, 1e6, "-1", "", 0, "number of the balloon, from 0; -1: all", "")

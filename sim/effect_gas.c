@@ -62,10 +62,10 @@ static enum status open(struct sim *sim, struct sim_balloon *b, struct error *er
     gas->scene = &b->scene->gas;
     gas->g = gas->scene->process == SCENE_ADIABATIC ? gas->scene->gamma : 1;
     set_weights(gas, &sim->scene->gravity);
-    gas->held = sim_table(sim, b->point_end - b->point_begin, sizeof *gas->held);
+    gas->held = sim_table(sim, b->point_room - b->point_begin, sizeof *gas->held);
     if (!gas->held)
         return error_no_memory(err, "the gas");
-    memset(gas->held, 1, b->point_end - b->point_begin);
+    memset(gas->held, 1, b->point_room - b->point_begin);
     sim->bytes += sizeof *gas;
     enum status status = sim_add_scalars(sim, GAS_SCALARS, &gas->scalar, err);
     if (!status && gas->scene->neck > 0)
@@ -90,7 +90,7 @@ static size_t blocks(struct sim *sim, struct sim_balloon *b, struct sim_block *l
 {
     (void)sim;
     list[0] = (struct sim_block){"gas", &b->gas->memory, sizeof b->gas->memory};
-    list[1] = (struct sim_block){"held by gas", b->gas->held, b->point_end - b->point_begin};
+    list[1] = (struct sim_block){"held by gas", b->gas->held, b->point_room - b->point_begin};
     return 2;
 }
 

@@ -115,7 +115,7 @@ static void bound(const struct sim *sim, const struct sim_balloon *b, const stru
 static enum status open(struct sim *sim, struct sim_balloon *b, struct error *err)
 {
     const struct scene_membrane *block = &b->scene->membrane;
-    const uint32_t triangles = b->triangle_end - b->triangle_begin, edges = b->edge_end - b->edge_begin;
+    const uint32_t triangles = b->triangle_end - b->triangle_begin, edges = b->edge_room - b->edge_begin;
     struct membrane *m = b->membrane = calloc(1, sizeof *m);
     if (!m)
         return error_no_memory(err, "the membrane");

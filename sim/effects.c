@@ -20,6 +20,7 @@ const struct effect *const effects[] = {
     &effect_drag,
     &effect_string,
     &effect_pins, /* takes away what the others add */
+    &effect_fracture,
     NULL,
 };
 

@@ -83,6 +83,15 @@ static inline row edge_force(const struct edges *edges, uint32_t e)
     return (spring + damper) * inverse(length) * l;
 }
 
+/* Adds it to those of the two points that are the part's. */
+static inline void add_to_own_ends(const struct sim_part *part, row *force, const uint32_t *p, row f)
+{
+    if (p[0] - part->point_begin < part->point_end - part->point_begin)
+        force[p[0]] -= f;
+    if (p[1] - part->point_begin < part->point_end - part->point_begin)
+        force[p[1]] += f;
+}
+
 static void coming_forces(struct sim *sim, const struct sim_part *part)
 {
     const struct edges edges = edges_of(sim, part);
@@ -90,14 +99,14 @@ static void coming_forces(struct sim *sim, const struct sim_part *part)
     for (uint32_t i = 0; i < part->edge_in_count; i++) {
         const uint32_t e = part->edge_in[i];
         if (edges.active[e])
-            force[edges.point[e][1]] += edge_force(&edges, e);
+            add_to_own_ends(part, force, edges.point[e], edge_force(&edges, e));
     }
 }
 
 static void edge_forces(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk)
 {
     const struct edges edges = edges_of(sim, part);
-    const uint32_t inner_end = chunk->edge_inner_end, end = chunk->edge_end, point_end = part->point_end;
+    const uint32_t inner_end = chunk->edge_inner_end, end = chunk->edge_end;
     row *force = sim->rows.force;
     for (uint32_t e = chunk->edge_begin; e < inner_end; e++)
         if (edges.active[e]) {
@@ -106,12 +115,8 @@ static void edge_forces(struct sim *sim, const struct sim_part *part, const stru
             force[edges.point[e][1]] += f;
         }
     for (uint32_t e = inner_end; e < end; e++)
-        if (edges.active[e]) {
-            const row f = edge_force(&edges, e);
-            force[edges.point[e][0]] -= f;
-            if (edges.point[e][1] < point_end)
-                force[edges.point[e][1]] += f;
-        }
+        if (edges.active[e])
+            add_to_own_ends(part, force, edges.point[e], edge_force(&edges, e));
 }
 
 /* Part 3: the unit normal of a triangle, which each active one adds to its three points'. A triangle without area has none

@@ -5,6 +5,7 @@
 #include "common/vec3.h"
 #include "sim/guard.h"
 #include "sim/kernels.h"
+#include "sim/topology.h"
 #include "sim/vectors.h"
 
 #include <stdlib.h>
@@ -195,8 +196,9 @@ static enum status count(struct sim *sim, const struct mesh *meshes, struct erro
 {
     size_t points = 0, edges = 0, triangles = 0;
     for (size_t i = 0; i < sim->balloon_count; i++) {
-        points += meshes[i].point_count;
-        edges += meshes[i].edge_count;
+        const uint32_t room = topology_room(&sim->scene->balloons[i].fracture, meshes[i].point_count);
+        points += meshes[i].point_count + (size_t)room;
+        edges += meshes[i].edge_count + (size_t)room;
         triangles += meshes[i].triangle_count;
     }
     if (edges >= MESH_NONE)
@@ -222,6 +224,11 @@ static enum status fill(struct sim *sim, const struct mesh *meshes, struct error
         b->triangle_begin = triangle;
         b->point_end = point += meshes[i].point_count;
         b->edge_end = edge += meshes[i].edge_count;
+        const uint32_t room = topology_room(&b->scene->fracture, meshes[i].point_count);
+        b->point_room = point += room;
+        b->edge_room = edge += room;
+        for (uint32_t p = b->point_end; p < b->point_room; p++)
+            sim->mass[p] = 1; /* of what is not there yet: any that can be divided by */
         b->triangle_end = triangle += meshes[i].triangle_count;
         status = fill_balloon(sim, b, &meshes[i], err);
     }

@@ -77,14 +77,98 @@ static bool fill_part(struct sim *sim, struct sim_part *part)
     part->edge_in_count = list_incoming(part, edges, 2, b->edge_begin, part->edge_begin, NULL);
     part->triangle_in_count = list_incoming(part, triangles, 3, b->triangle_begin, part->triangle_begin,
                                             NULL);
-    part->edge_in = array_new(part->edge_in_count + 1, sizeof *part->edge_in);
+    const uint32_t ahead = b->edge_room - b->edge_end; /* for new edges */
+    part->edge_in_room = part->edge_in_count + ahead;
+    part->triangle_in_room = part->triangle_in_count;
+    part->edge_in_own = array_new((size_t)part->edge_in_room + 1, sizeof *part->edge_in);
     part->triangle_in = array_new(part->triangle_in_count + 1, sizeof *part->triangle_in);
-    if (!part->edge_in || !part->triangle_in)
+    if (!part->edge_in_own || !part->triangle_in)
         return false;
+    part->edge_in = part->edge_in_own + ahead;
     list_incoming(part, edges, 2, b->edge_begin, part->edge_begin, part->edge_in);
     list_incoming(part, triangles, 3, b->triangle_begin, part->triangle_begin, part->triangle_in);
-    sim->bytes += (part->edge_in_count + part->triangle_in_count) * sizeof(uint32_t);
+    sim->bytes += ((size_t)part->edge_in_room + part->triangle_in_count) * sizeof(uint32_t);
     return true;
+}
+
+/* The part that works on a torn balloon's new points: nothing as yet, but with room for all that can come in. */
+static bool make_tail(struct sim *sim, struct sim_part *part)
+{
+    enum { FAN = 8 }; /* triangles that get a new point with each: half a fan, mostly */
+    const struct sim_balloon *b = part->balloon;
+    const uint64_t most = (uint64_t)FAN * (b->point_room - b->point_end) + 1;
+    const uint32_t edges = b->edge_end - b->edge_begin, triangles = b->triangle_end - b->triangle_begin;
+    part->point_begin = part->point_end = b->point_end;
+    part->edge_begin = part->edge_end = b->edge_end;
+    part->triangle_begin = part->triangle_end = b->triangle_end;
+    part->edge_in_room = most < edges ? (uint32_t)most : edges;
+    part->triangle_in_room = most < triangles ? (uint32_t)most : triangles;
+    part->edge_in = part->edge_in_own = sim_table(sim, part->edge_in_room, sizeof *part->edge_in);
+    part->triangle_in = sim_table(sim, part->triangle_in_room, sizeof *part->triangle_in);
+    part->chunks = calloc(1, sizeof *part->chunks);
+    if (!part->edge_in || !part->triangle_in || !part->chunks)
+        return false;
+    part->chunk_count = 1;
+    part->chunks[0] = (struct sim_chunk){.triangle_begin = b->triangle_end,
+                                         .triangle_end = b->triangle_end,
+                                         .triangle_inner_end = b->triangle_end};
+    parts_extend(part, b->point_end, b->edge_end);
+    return true;
+}
+
+void parts_extend(struct sim_part *tail, uint32_t point_end, uint32_t edge_end)
+{
+    struct sim_chunk *c = tail->chunks;
+    tail->point_end = point_end;
+    tail->edge_end = edge_end;
+    c->point_begin = c->clear_begin = tail->point_begin;
+    c->point_end = c->clear_end = point_end;
+    c->edge_begin = c->edge_inner_end = tail->edge_begin;
+    c->edge_end = edge_end;
+}
+
+void parts_take_edge(struct sim_part *part, uint32_t edge)
+{
+    *--part->edge_in = edge;
+    part->edge_in_count++;
+    part->edge_in_new++;
+    part->chunks[0].clear_end = part->point_end; /* its points may be anywhere: all are cleared at once */
+    for (uint32_t i = 1; i < part->chunk_count && part->chunks[i].clear_begin < part->point_end; i++)
+        part->chunks[i].clear_begin = part->chunks[i].clear_end = part->point_end;
+}
+
+void parts_forget(struct sim *sim, const struct sim_balloon *balloon)
+{
+    for (struct sim_part *part = sim->parts; part < sim->parts + sim->part_count; part++) {
+        if (part->balloon != balloon)
+            continue;
+        part->edge_in += part->edge_in_new;
+        part->edge_in_count -= part->edge_in_new;
+        part->edge_in_new = 0;
+    }
+}
+
+void parts_loosen_edge(struct sim *sim, const struct sim_balloon *balloon, uint32_t edge)
+{
+    for (struct sim_part *part = sim->parts; part < sim->parts + sim->part_count; part++)
+        if (part->balloon == balloon && edge - part->edge_begin < part->edge_end - part->edge_begin) {
+            struct sim_chunk *c = part->chunks;
+            while (edge >= c->edge_end)
+                c++;
+            c->edge_inner_end = edge < c->edge_inner_end ? edge : c->edge_inner_end;
+        }
+}
+
+void parts_loosen_triangle(struct sim *sim, const struct sim_balloon *balloon, uint32_t triangle)
+{
+    for (struct sim_part *part = sim->parts; part < sim->parts + sim->part_count; part++)
+        if (part->balloon == balloon &&
+            triangle - part->triangle_begin < part->triangle_end - part->triangle_begin) {
+            struct sim_chunk *c = part->chunks;
+            while (triangle >= c->triangle_end)
+                c++;
+            c->triangle_inner_end = triangle < c->triangle_inner_end ? triangle : c->triangle_inner_end;
+        }
 }
 
 /* Points of a chunk: with their neighbours they take about a tenth of a megabyte for each thousand. */
@@ -169,30 +253,48 @@ static bool make_chunks(struct sim *sim, struct sim_part *part)
     return true;
 }
 
+/* A balloon's points in as many parts as there are workers. */
+static bool make_parts(struct sim *sim, const struct sim_balloon *b, struct sim_part *parts, unsigned workers)
+{
+    bool good = true;
+    const uint64_t begin = b->point_begin, count = b->point_end - begin;
+    for (unsigned i = 0; i < workers && good; i++) {
+        parts[i].point_begin = (uint32_t)(begin + count * i / workers);
+        parts[i].point_end = (uint32_t)(begin + count * (i + 1) / workers);
+        good = fill_part(sim, &parts[i]) && make_chunks(sim, &parts[i]);
+    }
+    return good;
+}
+
+static bool has_room(const struct sim_balloon *b)
+{
+    return b->point_room > b->point_end;
+}
+
 enum status parts_open(struct sim *sim, struct error *err)
 {
     const unsigned workers = threads_workers(sim->pool);
-    sim->part_count = workers * sim->balloon_count;
-    sim->parts = array_new(sim->part_count, sizeof *sim->parts);
+    const struct sim_balloon *end = sim->balloons + sim->balloon_count;
+    sim->part_count = 0;
+    for (const struct sim_balloon *b = sim->balloons; b < end; b++)
+        sim->part_count += workers + has_room(b);
+    sim->parts = sim_table(sim, sim->part_count, sizeof *sim->parts);
     sim->overlong = array_new(sim->part_count, sizeof *sim->overlong);
-    if (!sim->parts || !sim->overlong)
-        return error_no_memory(err, "the workers' parts");
-    for (size_t i = 0; i < sim->part_count; i++) {
-        struct sim_part *part = &sim->parts[i];
-        part->balloon = &sim->balloons[i / workers];
-        const uint64_t begin = part->balloon->point_begin, count = part->balloon->point_end - begin;
-        part->point_begin = (uint32_t)(begin + count * (i % workers) / workers);
-        part->point_end = (uint32_t)(begin + count * (i % workers + 1) / workers);
-        if (!fill_part(sim, part) || !make_chunks(sim, part))
-            return error_no_memory(err, "the workers' parts");
+    bool good = sim->parts && sim->overlong;
+    struct sim_part *part = sim->parts;
+    for (struct sim_balloon *b = sim->balloons; b < end && good; b++) {
+        for (unsigned i = 0; i < workers + has_room(b); i++)
+            part[i].balloon = b;
+        good = make_parts(sim, b, part, workers) && (!has_room(b) || make_tail(sim, &part[workers]));
+        part += workers + has_room(b);
     }
-    return STATUS_OK;
+    return good ? STATUS_OK : error_no_memory(err, "the workers' parts");
 }
 
 void parts_close(struct sim *sim)
 {
     for (size_t i = 0; sim->parts && i < sim->part_count; i++) {
-        free(sim->parts[i].edge_in);
+        free(sim->parts[i].edge_in_own);
         free(sim->parts[i].triangle_in);
         free(sim->parts[i].chunks);
     }

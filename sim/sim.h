@@ -33,6 +33,8 @@ struct string;
 struct obstacles;
 struct contact;
 struct gas_rims;
+struct topology;
+struct fracture;
 struct membrane;
 struct threads;
 
@@ -50,9 +52,10 @@ struct sim_balloon {
     uint32_t point_begin, point_end;
     uint32_t edge_begin, edge_end;
     uint32_t triangle_begin, triangle_end;
-    double centre[3];        /* of its points, at rest */
-    double radius;           /* mean distance of its points from that centre, at rest */
-    double mean_rest_length; /* of its edges */
+    uint32_t point_room, edge_room; /* point_end and edge_end may grow to these where the skin tears */
+    double centre[3];               /* of its points, at rest */
+    double radius;                  /* mean distance of its points from that centre, at rest */
+    double mean_rest_length;        /* of its edges */
     bool
         own_thresholds; /* an edge's threshold is over its own rest length: the settings' is that of an edge of length 1 */
     double breathing_rate;    /* 1/s, for errors of speeds (weights.h) */
@@ -63,6 +66,8 @@ struct sim_balloon {
     double *slip;  /* [slip_count] of its edges, where springs slip (effect_plasticity.c); owned */
     uint32_t slip_count;
     struct membrane *membrane; /* what acts in place of the springs (membrane.h); NULL: the springs */
+    struct fracture *fracture; /* where and when the skin tears (fracture.h); NULL: as the paper has it */
+    struct topology *topology; /* and how (topology.h) */
     struct gas *gas;           /* what is sealed in (effect_gas.h); NULL: nothing, the pressure is given */
     struct pins *pins;         /* likewise what holds it (effect_pins.c), */
     struct string *string;     /* and what it is tied to (effect_string.c) */
@@ -98,8 +103,10 @@ struct sim_part {
     uint32_t point_begin, point_end;
     uint32_t edge_begin, edge_end;         /* the edges whose lower point is here */
     uint32_t triangle_begin, triangle_end; /* the triangles whose lowest point is here */
-    uint32_t *edge_in, edge_in_count;      /* edges of lower parts that end here, in order; owned */
-    uint32_t *triangle_in, triangle_in_count;
+    uint32_t *edge_in, edge_in_count; /* edges of lower parts that end here, in order, new ones before them */
+    uint32_t *triangle_in, triangle_in_count; /* owned */
+    uint32_t *edge_in_own;                    /* what edge_in lies in; owned */
+    uint32_t edge_in_new, edge_in_room, triangle_in_room;
     struct sim_chunk *chunks; /* [chunk_count] owned */
     uint32_t chunk_count;
 };
@@ -440,6 +447,14 @@ void springs_by_cotangent(struct sim *sim, const struct sim_balloon *balloon);
 void parts_order(const struct mesh *mesh, uint32_t *edge_place, uint32_t *triangle_place, uint32_t *count);
 enum status parts_open(struct sim *sim, struct error *err);
 void parts_close(struct sim *sim);
+
+/* For cuts (topology.h), none of which allocates. The part of new points reaches this far; a new edge comes into a part with
+ * some of its points; all such edges go again; an edge or a triangle has got points that another part works on. */
+void parts_extend(struct sim_part *tail, uint32_t point_end, uint32_t edge_end);
+void parts_take_edge(struct sim_part *part, uint32_t edge);
+void parts_forget(struct sim *sim, const struct sim_balloon *balloon);
+void parts_loosen_edge(struct sim *sim, const struct sim_balloon *balloon, uint32_t edge);
+void parts_loosen_triangle(struct sim *sim, const struct sim_balloon *balloon, uint32_t triangle);
 
 /* Makes sim->past where the method can look into its steps (STATUS_NO_MEMORY); remembers how a step begins (look.c). */
 enum status look_open(struct sim *sim, struct error *err);

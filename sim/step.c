@@ -63,6 +63,8 @@ static void break_edges(struct sim *sim)
     sim_each_part(sim, count_overlong, NULL);
     for (size_t i = 0; i < sim->part_count; i++) {
         const struct sim_part *part = &sim->parts[i];
+        if (part->balloon->fracture) /* its skin tears in another way */
+            continue;
         for (uint32_t e = part->edge_begin; e < part->edge_end && sim->overlong[i]; e++)
             if (sim->edge_active[e] && sim_edge_length(sim, e) > sim_threshold(sim, part->balloon, e))
                 sim_break_edge(sim, e);

@@ -1,0 +1,219 @@
+#include "sim/fracture.h"
+#include "common/threads.h"
+#include "common/vec3.h"
+
+#include <math.h>
+#include <string.h>
+
+/* W of an equal stretch both ways, neo-Hookean: (2 L^2 + L^-4 - 3)/2. */
+double fracture_equal_energy(double stretch)
+{
+    const double squared = stretch * stretch;
+    return (2 * squared + 1 / (squared * squared) - 3) / 2;
+}
+
+/* Principal stretches from F = [d1 d2] [(a, 0), (b, c)]^-1, whose columns are f1 and f2; then neo-Hookean, with tension-field
+ * wrinkles (membrane.h). */
+static void look_at_springs(const struct sim *sim, const struct sim_balloon *b, uint32_t triangle,
+                            struct membrane_state *s)
+{
+    const double *shape = b->fracture->shape[triangle - b->triangle_begin];
+    const uint32_t *p = sim->triangle_point[triangle];
+    double f1[3], f2[3];
+    for (int i = 0; i < 3; i++) {
+        const double d1 = sim->position[p[1]][i] - sim->position[p[0]][i],
+                     d2 = sim->position[p[2]][i] - sim->position[p[0]][i];
+        f1[i] = d1 / shape[0];
+        f2[i] = (d2 - shape[1] * f1[i]) / shape[2];
+    }
+    const double c11 = vec3_dot(f1, f1), c12 = vec3_dot(f1, f2), c22 = vec3_dot(f2, f2);
+    const double mean = (c11 + c22) / 2, off = hypot((c11 - c22) / 2, c12);
+    const double angle = off > 0 ? atan2(c12, (c11 - c22) / 2) / 2 : 0;
+    const double l1 = sqrt(mean + off), l2 = sqrt(fmax(mean - off, 0));
+    *s = (struct membrane_state){.stretch = {l1, l2}};
+    for (int i = 0; i < 3; i++)
+        s->direction[i] = l1 > 0 ? (cos(angle) * f1[i] + sin(angle) * f2[i]) / l1 : 0;
+    if (l1 <= 1)
+        return;
+    const double across = fmax(l2, 1 / sqrt(l1)), thick = 1 / (l1 * across);
+    s->energy = (l1 * l1 + across * across + thick * thick - 3) / 2;
+    s->stress[0] = l1 - thick * thick / l1;
+    s->stress[1] = l2 * l2 * l1 < 1 ? 0 : l2 - thick * thick / l2;
+}
+
+void fracture_look(const struct sim *sim, const struct sim_balloon *b, uint32_t triangle,
+                   struct membrane_state *state)
+{
+    if (b->membrane)
+        membrane_look(sim, b, triangle, state);
+    else
+        look_at_springs(sim, b, triangle, state);
+}
+
+enum { SHARES = 64 };
+
+struct look {
+    const struct sim *sim;
+    const struct sim_balloon *balloon;
+};
+
+static void look_share(void *context, size_t share, unsigned worker)
+{
+    (void)worker;
+    const struct look *look = context;
+    const struct sim_balloon *b = look->balloon;
+    const uint64_t count = b->triangle_end - b->triangle_begin;
+    const uint32_t end = b->triangle_begin + (uint32_t)(count * (share + 1) / SHARES);
+    for (uint32_t t = b->triangle_begin + (uint32_t)(count * share / SHARES); t < end; t++) {
+        struct membrane_state s;
+        fracture_look(look->sim, b, t, &s);
+        b->fracture->energy[t - b->triangle_begin] = s.energy;
+    }
+}
+
+void fracture_energies(struct sim *sim, struct sim_balloon *b)
+{
+    struct fracture *f = b->fracture;
+    if (b->membrane)
+        membrane_energies(sim, b, f->energy);
+    else
+        threads_run(sim->pool, SHARES, look_share, &(struct look){sim, b});
+    memset(f->patch_sum, 0, f->patch_count * sizeof *f->patch_sum);
+    for (uint32_t t = 0; t < b->triangle_end - b->triangle_begin; t++)
+        f->patch_sum[f->patch[t]] += f->energy[t] * b->topology->rest_area[t];
+}
+
+static double patch_strength(const struct sim_balloon *b, uint32_t triangle)
+{
+    const struct fracture *f = b->fracture;
+    const uint32_t t = triangle - b->triangle_begin, patch = f->patch[t];
+    const double again = f->now.births > 0 ? 1.5 : 1;
+    return f->patch_sum[patch] / f->patch_area[patch] /
+           (again * f->whole_energy * (1 + b->scene->fracture.weakness * f->noise[t]));
+}
+
+static bool is_near_birth(const struct sim_balloon *b, const double place[3], double distance)
+{
+    for (uint32_t i = 0; i < b->fracture->now.births; i++)
+        if (vec3_distance(b->fracture->births[i], place) < distance * b->fracture->radius)
+            return true;
+    return false;
+}
+
+/* The weakest triangle of whole skin, in the sense of its patch; MESH_NONE: none is weak enough. */
+static uint32_t weakest(const struct sim *sim, const struct sim_balloon *b)
+{
+    const struct fracture *f = b->fracture;
+    double most = 1;
+    uint32_t found = MESH_NONE;
+    for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++) {
+        const double strength = patch_strength(b, t);
+        if (strength < most || (found != MESH_NONE && strength == most))
+            continue;
+        bool rim = false;
+        for (int k = 0; k < 3; k++)
+            rim |= fracture_is_rim(sim, b, sim->triangle_point[t][k]);
+        if (is_near_birth(b, f->middle[t - b->triangle_begin], rim ? 0.25 : 0.6))
+            continue;
+        most = strength;
+        found = t;
+    }
+    return found;
+}
+
+void fracture_tension(const struct sim *sim, const struct sim_balloon *b, uint32_t point, double direction[3])
+{
+    /* the direction is taken back to rest by the triangle's corners, which keep their barycentric coordinates */
+    struct fan fan;
+    struct membrane_state s, best = {.energy = -1};
+    topology_first(sim, b, point, &fan);
+    const uint32_t first = fan.triangle;
+    uint32_t at = first;
+    do {
+        fracture_look(sim, b, fan.triangle, &s);
+        if (s.stress[0] > best.stress[0] || best.energy < 0) {
+            best = s;
+            at = fan.triangle;
+        }
+    } while (topology_next(sim, b, &fan) && fan.triangle != first);
+    const uint32_t *p = sim->triangle_point[at];
+    double d1[3], d2[3];
+    vec3_sub(sim->position[p[1]], sim->position[p[0]], d1);
+    vec3_sub(sim->position[p[2]], sim->position[p[0]], d2);
+    const double g11 = vec3_dot(d1, d1), g12 = vec3_dot(d1, d2), g22 = vec3_dot(d2, d2);
+    const double x = vec3_dot(best.direction, d1), y = vec3_dot(best.direction, d2);
+    const double det = g11 * g22 - g12 * g12;
+    const double u = det > 0 ? (g22 * x - g12 * y) / det : 1, v = det > 0 ? (g11 * y - g12 * x) / det : 0;
+    double(*rest)[3] = b->topology->rest;
+    for (int i = 0; i < 3; i++)
+        direction[i] = u * (rest[p[1] - b->point_begin][i] - rest[p[0] - b->point_begin][i]) +
+                       v * (rest[p[2] - b->point_begin][i] - rest[p[0] - b->point_begin][i]);
+}
+
+/* A slit at a point across the largest tension. */
+static void open_at(struct sim *sim, struct sim_balloon *b, uint32_t point, double half_length)
+{
+    struct fracture *f = b->fracture;
+    double tension[3], across[3], twice[3];
+    const uint32_t *p = sim->triangle_point[b->topology->triangle_at[point - b->point_begin]];
+    double(*rest)[3] = b->topology->rest;
+    fracture_tension(sim, b, point, tension);
+    vec3_triangle(rest[p[0] - b->point_begin], rest[p[1] - b->point_begin], rest[p[2] - b->point_begin],
+                  twice);
+    vec3_cross(twice, tension, across);
+    if (f->now.births < BIRTHS_MAX)
+        memcpy(f->births[f->now.births++], rest[point - b->point_begin], sizeof *f->births);
+    fracture_slit(sim, b, point, across, half_length);
+}
+
+void fracture_prick(struct sim *sim, struct sim_balloon *b, const double place[3])
+{
+    uint32_t nearest = b->point_begin;
+    for (uint32_t p = b->point_begin; p < b->point_end; p++)
+        if (vec3_distance(sim->position[p], place) < vec3_distance(sim->position[nearest], place))
+            nearest = p;
+    b->fracture->stamps++;
+    open_at(sim, b, nearest, 0.075 * b->fracture->radius);
+    fracture_tell_gas(sim, b);
+}
+
+static void births(struct sim *sim, struct sim_balloon *b)
+{
+    struct fracture *f = b->fracture;
+    if (f->now.births == BIRTHS_MAX)
+        return;
+    const uint32_t t = weakest(sim, b);
+    if (t == MESH_NONE || !topology_can_cut(sim, b))
+        return;
+    const uint32_t *p = sim->triangle_point[t];
+    uint32_t point = p[0];
+    for (int k = 1; k < 3; k++)
+        if (fracture_is_rim(sim, b, point) && !fracture_is_rim(sim, b, p[k]))
+            point = p[k];
+    open_at(sim, b, point, 0.05 * f->radius);
+}
+
+/* Strands between pieces hold twice what whole skin does, and then snap. */
+static void snap_strands(struct sim *sim, struct sim_balloon *b)
+{
+    const struct fracture *f = b->fracture;
+    for (uint32_t t = b->triangle_begin; t < b->triangle_end && f->now.births > 0; t++)
+        if (f->energy[t - b->triangle_begin] >= 2 * f->whole_energy)
+            fracture_snap(sim, b, t);
+}
+
+void fracture_step(struct sim *sim, struct sim_balloon *b)
+{
+    struct fracture *f = b->fracture;
+    const uint32_t cuts = b->topology->now.edges;
+    f->stamps++;
+    if (sim->time >= f->now.next_look) {
+        f->now.next_look = sim->time + f->look_interval;
+        fracture_energies(sim, b);
+        births(sim, b);
+        snap_strands(sim, b);
+    }
+    fracture_tips(sim, b);
+    if (b->topology->now.edges != cuts)
+        fracture_tell_gas(sim, b);
+}

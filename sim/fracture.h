@@ -1,0 +1,94 @@
+/*
+ * Where and when a skin tears (the scene's block `fracture` in mode "tear"); topology.h is how.
+ *
+ * All is asked between two steps, with the stresses as they are. Lengths are at rest, in mean radii R; W is the energy that a volume
+ * at rest holds over the shear modulus, and T = R/c, c the speed of shear waves at rest.
+ *
+ * Births. Whole skin tears where the mean of W over a patch of radius 0.15 R passes what an equal stretch of `strength` both ways would hold,
+ * times 1 + weakness x noise(place, seed). The mean makes it a property of the skin and not of its mesh. Once it has burst somewhere,
+ * it takes 1.5 times as much to burst elsewhere, and not near an earlier place. Birth is a slit across the largest tension.
+ * Tips. A crack runs on when its tip's triangles would release its toughness: W_tip r >= toughness R, r = sqrt(their area/pi) (Griffith 1921: an
+ * energy per area of crack, so that the mesh's size drops out). It takes the edge with the largest tension across, forwards only, and then
+ * rests for as long as a tip of `tip_speed` c takes to go there.
+ * Forks. Where the skin ahead holds more than `branching` would, a tip goes two ways, and not again before it has run `spacing` R sqrt(W_branching/W).
+ * Strongest first, and nothing twice in a neighbourhood that has changed in this step.
+ */
+#ifndef SIM_FRACTURE_H
+#define SIM_FRACTURE_H
+
+#include "sim/effect_gas.h"
+#include "sim/membrane.h"
+#include "sim/topology.h"
+
+enum { TIPS_MAX = 512, BIRTHS_MAX = 128 };
+
+struct crack_tip {
+    double heading[3]; /* unit, at rest */
+    double ready;      /* s: when it may go on */
+    double run;        /* at rest, since it forked last */
+    uint32_t point;
+    uint32_t alive;
+};
+
+struct fracture {
+    double (*shape)[3];  /* [triangles] sides at rest in their plane: (a, 0), (b, c) */
+    double *energy;      /* [triangles] W by the last look */
+    double *noise;       /* [triangles] -1 to 1 */
+    double (*middle)[3]; /* [triangles] at rest */
+    uint32_t *patch;     /* [triangles] */
+    double *patch_sum;   /* [patch_count] */
+    double *patch_area;  /* [patch_count] */
+    uint32_t patch_count;
+    uint32_t *list; /* [list_room] for searches */
+    uint32_t list_room;
+    unsigned char *seen; /* [triangles] */
+    uint32_t *stamp;     /* [points] when the point's triangles last changed: within a step only */
+    uint32_t stamps;
+    double radius, wave_speed, look_interval;
+    double whole_energy, branch_energy; /* W of strength and branching */
+    struct gas_rims rims;               /* what the gas is told */
+    uint32_t *hole_of;                  /* [sides of triangles] scratch for them */
+    unsigned char *lost;                /* [triangles] 1: fell off the gas's piece */
+
+    struct crack_tip *tips; /* [TIPS_MAX] */
+    double (*births)[3];    /* [BIRTHS_MAX] places at rest */
+    struct fracture_counts {
+        uint32_t tips, births;
+        uint32_t pieces; /* that fell off */
+        uint32_t events; /* cuts by the rule */
+        double next_look;
+    } now;
+};
+
+/* The strain of a triangle: the membrane's own, or else as if the springs were a neo-Hookean membrane, which depends on the stretches alone. */
+void fracture_look(const struct sim *sim, const struct sim_balloon *balloon, uint32_t triangle,
+                   struct membrane_state *state);
+
+/* Cuts a slit at a point, half_length (at rest) to both sides of it along `direction`, a vector of the skin as it was at rest; on a rim only
+ * inwards. Its ends become tips of cracks. Returns the cuts. */
+uint32_t fracture_slit(struct sim *sim, struct sim_balloon *balloon, uint32_t point,
+                       const double direction[3], double half_length);
+
+/* What a needle's touch or a click does: a slit of 0.15 R at the balloon's point nearest to a place as the skin is now, across the largest tension there. */
+void fracture_prick(struct sim *sim, struct sim_balloon *balloon, const double place[3]);
+
+/* Mean direction of the largest tension around a point, as it lies in the skin at rest. */
+void fracture_tension(const struct sim *sim, const struct sim_balloon *balloon, uint32_t point,
+                      double direction[3]);
+
+/* The rule, after each step. */
+void fracture_step(struct sim *sim, struct sim_balloon *balloon);
+
+/* What fracture.c, cracks.c and effect_fracture.c share. */
+void fracture_energies(struct sim *sim, struct sim_balloon *balloon);
+void fracture_tips(struct sim *sim, struct sim_balloon *balloon);
+void fracture_snap(struct sim *sim, struct sim_balloon *balloon, uint32_t triangle);
+bool fracture_is_rim(const struct sim *sim, const struct sim_balloon *balloon, uint32_t point);
+/* How many triangles would fall off if the side were cut between two points of a rim (the smaller part, by count); they are
+ * fracture->list. 0: the skin would still hang together. O(that number). Then, once it is cut: */
+uint32_t fracture_falls_off(struct sim *sim, struct sim_balloon *balloon, uint32_t triangle, int side);
+void fracture_let_fall(struct sim *sim, struct sim_balloon *balloon, uint32_t count);
+void fracture_tell_gas(struct sim *sim, struct sim_balloon *balloon);
+double fracture_equal_energy(double stretch);
+
+#endif

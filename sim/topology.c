@@ -1,0 +1,386 @@
+#include "sim/topology.h"
+#include "common/vec3.h"
+#include "sim/membrane.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A hexagonal mesh of n points on a sphere of radius R has edges of R sqrt(8 pi/(sqrt 3 n)) = 3.8 R/sqrt n. */
+uint32_t topology_room(const struct scene_fracture *fracture, uint32_t points)
+{
+    if (!fracture->on || fracture->mode != SCENE_FRACTURE_TEAR)
+        return 0;
+    const double room = 64 + fracture->reserve * sqrt((double)points) / 3.8;
+    return (uint32_t)fmin(room, 4.0 * points);
+}
+
+static uint32_t *neighbours(const struct sim_balloon *b, uint32_t triangle)
+{
+    return b->topology->neighbour[triangle - b->triangle_begin];
+}
+
+static int corner_of(const struct sim *sim, uint32_t triangle, uint32_t point)
+{
+    const uint32_t *p = sim->triangle_point[triangle];
+    return p[0] == point ? 0 : p[1] == point ? 1 : 2;
+}
+
+/* The side of `triangle` that has the edge. */
+static int side_of(const struct sim *sim, uint32_t triangle, uint32_t edge)
+{
+    const uint32_t *e = sim->triangle_edge[triangle];
+    return e[0] == edge ? 0 : e[1] == edge ? 1 : 2;
+}
+
+/* Across the side before the point (towards the next triangle against the clock), or the one after it. */
+static bool turn(const struct sim *sim, const struct sim_balloon *b, struct fan *fan, bool against_clock)
+{
+    const int side = against_clock ? (fan->corner + 2) % 3 : fan->corner;
+    const uint32_t next = neighbours(b, fan->triangle)[side];
+    if (next == MESH_NONE)
+        return false;
+    *fan = (struct fan){next, corner_of(sim, next, sim->triangle_point[fan->triangle][fan->corner])};
+    return true;
+}
+
+bool topology_next(const struct sim *sim, const struct sim_balloon *b, struct fan *fan)
+{
+    return turn(sim, b, fan, true);
+}
+
+bool topology_first(const struct sim *sim, const struct sim_balloon *b, uint32_t point, struct fan *fan)
+{
+    const uint32_t start = b->topology->triangle_at[point - b->point_begin];
+    *fan = (struct fan){start, corner_of(sim, start, point)};
+    while (turn(sim, b, fan, false))
+        if (fan->triangle == start)
+            return true;
+    return false;
+}
+
+static void connect(const struct sim *sim, const struct sim_balloon *b, uint32_t *one)
+{
+    for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++)
+        for (int k = 0; k < 3; k++) {
+            const uint32_t e = sim->triangle_edge[t][k], other = one[e - b->edge_begin];
+            if (other == MESH_NONE) {
+                one[e - b->edge_begin] = t;
+                neighbours(b, t)[k] = MESH_NONE;
+            } else {
+                neighbours(b, t)[k] = other;
+                neighbours(b, other)[side_of(sim, other, e)] = t;
+            }
+        }
+}
+
+static void measure_rest(const struct sim *sim, const struct sim_balloon *b)
+{
+    struct topology *top = b->topology;
+    for (uint32_t p = b->point_begin; p < b->point_end; p++)
+        memcpy(top->rest[p - b->point_begin], sim->position[p], sizeof *top->rest);
+    for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++) {
+        const uint32_t *p = sim->triangle_point[t];
+        double twice[3];
+        vec3_triangle(sim->position[p[0]], sim->position[p[1]], sim->position[p[2]], twice);
+        top->area += top->rest_area[t - b->triangle_begin] = vec3_length(twice) / 2;
+        for (int k = 0; k < 3; k++)
+            top->triangle_at[p[k] - b->point_begin] = t;
+    }
+}
+
+static struct sim_part *last_part(struct sim *sim, const struct sim_balloon *b)
+{
+    struct sim_part *part = sim->parts + sim->part_count;
+    while (part[-1].balloon != b)
+        part--;
+    return part - 1;
+}
+
+enum status topology_open(struct sim *sim, struct sim_balloon *b, struct error *err)
+{
+    struct topology *top = b->topology = calloc(1, sizeof *top);
+    if (!top)
+        return error_no_memory(err, "how the skin hangs together");
+    const size_t triangles = b->triangle_end - b->triangle_begin, points = b->point_room - b->point_begin,
+                 edges = b->edge_room - b->edge_begin;
+    top->old_points = b->point_end;
+    top->old_edges = b->edge_end;
+    top->rim_room = 2 * (b->edge_room - b->edge_end);
+    top->neighbour = sim_table(sim, triangles, sizeof *top->neighbour);
+    top->rest_area = sim_table(sim, triangles, sizeof *top->rest_area);
+    top->rest = sim_table(sim, points, sizeof *top->rest);
+    top->triangle_at = sim_table(sim, points, sizeof *top->triangle_at);
+    top->late_edge = sim_table(sim, edges, sizeof *top->late_edge);
+    top->late_triangle = sim_table(sim, triangles, sizeof *top->late_triangle);
+    top->rim = sim_table(sim, top->rim_room, sizeof *top->rim);
+    uint32_t *one = malloc(edges * sizeof *one);
+    const bool room = top->neighbour && top->rest_area && top->rest && top->triangle_at && top->late_edge &&
+                      top->late_triangle && top->rim && one;
+    if (room) {
+        memset(one, 0xff, edges * sizeof *one);
+        connect(sim, b, one);
+        measure_rest(sim, b);
+        top->tail = last_part(sim, b);
+    }
+    free(one);
+    return room ? STATUS_OK : error_no_memory(err, "how the skin hangs together");
+}
+
+void topology_close(struct sim_balloon *b)
+{
+    struct topology *top = b->topology;
+    if (!top)
+        return;
+    void *arrays[] = {top->neighbour, top->rest_area,     top->rest, top->triangle_at,
+                      top->late_edge, top->late_triangle, top->rim};
+    for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
+        free(arrays[i]);
+    free(top);
+    b->topology = NULL;
+}
+
+size_t topology_blocks(struct sim *sim, struct sim_balloon *b, struct sim_block *blocks)
+{
+    struct topology *top = b->topology;
+    const size_t triangles = b->triangle_end - b->triangle_begin, points = b->point_room - b->point_begin,
+                 edges = b->edge_room - b->edge_begin, new_edges = b->edge_room - top->old_edges;
+    const struct sim_block own[] = {
+        {"cuts", &top->now, sizeof top->now},
+        {"edge points", sim->edge_point + b->edge_begin, edges * sizeof *sim->edge_point},
+        {"triangle points", sim->triangle_point + b->triangle_begin, triangles * sizeof *sim->triangle_point},
+        {"triangle edges", sim->triangle_edge + b->triangle_begin, triangles * sizeof *sim->triangle_edge},
+        {"masses", sim->mass + b->point_begin, points * sizeof *sim->mass},
+        {"rest lengths", sim->rest_length + top->old_edges, new_edges * sizeof *sim->rest_length},
+        {"springs", sim->init_spring_const + b->edge_begin, edges * sizeof *sim->init_spring_const},
+        {"neighbours", top->neighbour, triangles * sizeof *top->neighbour},
+        {"rest", top->rest + (top->old_points - b->point_begin),
+         (b->point_room - top->old_points) * sizeof *top->rest},
+        {"triangle at", top->triangle_at, points * sizeof *top->triangle_at},
+        {"rims", top->rim, top->rim_room * sizeof *top->rim},
+        {"late edges", top->tail->edge_in, top->tail->edge_in_room * sizeof(uint32_t)},
+        {"late triangles", top->tail->triangle_in, top->tail->triangle_in_room * sizeof(uint32_t)},
+    };
+    size_t count = sizeof own / sizeof own[0];
+    memcpy(blocks, own, sizeof own);
+    if (b->membrane)
+        blocks[count++] = (struct sim_block){"weights", b->membrane->edge_weight,
+                                             edges * sizeof *b->membrane->edge_weight};
+    return count;
+}
+
+/* The part that works on one of the balloon's old points. */
+static struct sim_part *part_of(const struct sim_balloon *b, uint32_t point)
+{
+    struct sim_part *part = b->topology->tail;
+    while (point < part->point_begin)
+        part--;
+    return part;
+}
+
+static void comes_into(struct sim *sim, struct sim_balloon *b, uint32_t edge)
+{
+    struct sim_part *before = NULL;
+    for (int k = 0; k < 2; k++) {
+        struct sim_part *part = part_of(b, sim->edge_point[edge][k]);
+        if (part != b->topology->tail && part != before)
+            parts_take_edge(part, edge);
+        before = part;
+    }
+}
+
+void topology_restored(struct sim *sim, struct sim_balloon *b)
+{
+    struct topology *top = b->topology;
+    memset(top->late_edge, 0, b->edge_room - b->edge_begin);
+    memset(top->late_triangle, 0, b->triangle_end - b->triangle_begin);
+    b->point_end = top->old_points + top->now.points;
+    b->edge_end = top->old_edges + top->now.edges;
+    parts_forget(sim, b);
+    parts_extend(top->tail, b->point_end, b->edge_end);
+    for (uint32_t e = top->old_edges; e < b->edge_end; e++)
+        comes_into(sim, b, e);
+    top->tail->edge_in_count = top->now.late_edges;
+    top->tail->triangle_in_count = top->now.late_triangles;
+    for (uint32_t i = 0; i < top->now.late_edges; i++) {
+        top->late_edge[top->tail->edge_in[i] - b->edge_begin] = 1;
+        parts_loosen_edge(sim, b, top->tail->edge_in[i]);
+    }
+    for (uint32_t i = 0; i < top->now.late_triangles; i++) {
+        top->late_triangle[top->tail->triangle_in[i] - b->triangle_begin] = 1;
+        parts_loosen_triangle(sim, b, top->tail->triangle_in[i]);
+    }
+}
+
+/* The last part adds up what acts on new points, whoever has the slot. New edges have theirs there. */
+static void edge_is_late(struct sim *sim, struct sim_balloon *b, uint32_t edge)
+{
+    struct topology *top = b->topology;
+    if (edge >= top->old_edges || top->late_edge[edge - b->edge_begin])
+        return;
+    top->late_edge[edge - b->edge_begin] = 1;
+    top->tail->edge_in[top->tail->edge_in_count++] = edge;
+    top->now.late_edges++;
+    parts_loosen_edge(sim, b, edge);
+}
+
+static void triangle_is_late(struct sim *sim, struct sim_balloon *b, uint32_t triangle)
+{
+    struct topology *top = b->topology;
+    if (top->late_triangle[triangle - b->triangle_begin])
+        return;
+    top->late_triangle[triangle - b->triangle_begin] = 1;
+    top->tail->triangle_in[top->tail->triangle_in_count++] = triangle;
+    top->now.late_triangles++;
+    parts_loosen_triangle(sim, b, triangle);
+}
+
+/* What is remembered of the point is true of its copy. */
+static uint32_t copy_point(struct sim *sim, struct sim_balloon *b, uint32_t point, double share)
+{
+    struct topology *top = b->topology;
+    const uint32_t copy = b->point_end++;
+    top->now.points++;
+    for (int i = 0; i < 4; i++) {
+        sim->position[copy][i] = sim->position[point][i];
+        sim->velocity[copy][i] = sim->velocity[point][i];
+        sim->force[copy][i] = 0;
+        sim->normal[copy][i] = sim->normal[point][i];
+        for (int s = 0; s < sim->integrator->vectors; s++)
+            sim->scratch[s][copy][i] = sim->scratch[s][point][i];
+    }
+    memcpy(top->rest[copy - b->point_begin], top->rest[point - b->point_begin], sizeof *top->rest);
+    sim->mass[copy] = sim->mass[point] * share;
+    sim->mass[point] -= sim->mass[copy];
+    parts_extend(top->tail, b->point_end, b->edge_end);
+    return copy;
+}
+
+static void replace(uint32_t *numbers, int count, uint32_t old, uint32_t new)
+{
+    for (int i = 0; i < count; i++)
+        if (numbers[i] == old)
+            numbers[i] = new;
+}
+
+static double fan_area(const struct sim *sim, const struct sim_balloon *b, struct fan fan, bool against_clock)
+{
+    double area = 0;
+    do
+        area += b->topology->rest_area[fan.triangle - b->triangle_begin];
+    while (turn(sim, b, &fan, against_clock));
+    return area;
+}
+
+/* The triangles around the point from `fan` on get a point of their own. */
+static void split(struct sim *sim, struct sim_balloon *b, struct fan fan, bool against_clock, struct fan rest)
+{
+    const uint32_t point = sim->triangle_point[fan.triangle][fan.corner];
+    const double area = fan_area(sim, b, fan, against_clock), other = fan_area(sim, b, rest, !against_clock);
+    const uint32_t copy = copy_point(sim, b, point, area + other > 0 ? area / (area + other) : 0.5);
+    b->topology->triangle_at[point - b->point_begin] = rest.triangle;
+    b->topology->triangle_at[copy - b->point_begin] = fan.triangle;
+    struct fan last;
+    bool more;
+    do {
+        last = fan;
+        more = turn(sim, b, &fan, against_clock);
+        sim->triangle_point[last.triangle][last.corner] = copy;
+        triangle_is_late(sim, b, last.triangle);
+        for (int k = 0; k < 2; k++) {
+            const uint32_t edge = sim->triangle_edge[last.triangle][(last.corner + 2 * k) % 3];
+            replace(sim->edge_point[edge], 2, point, copy);
+            edge_is_late(sim, b, edge);
+        }
+    } while (more);
+}
+
+/* The neighbour's own edge: half the stiffness each. */
+static uint32_t double_edge(struct sim *sim, struct sim_balloon *b, uint32_t edge)
+{
+    const uint32_t copy = b->edge_end++;
+    b->topology->now.edges++;
+    for (int k = 0; k < 2; k++)
+        sim->edge_point[copy][k] = sim->edge_point[edge][k];
+    sim->init_spring_const[edge] /= 2;
+    sim->current_spring_const[edge] /= 2;
+    sim->init_spring_const[copy] = sim->init_spring_const[edge];
+    sim->current_spring_const[copy] = sim->current_spring_const[edge];
+    if (b->membrane) {
+        double *weight = b->membrane->edge_weight;
+        weight[edge - b->edge_begin] /= 2;
+        weight[copy - b->edge_begin] = weight[edge - b->edge_begin];
+    }
+    sim->rest_length[copy] = sim->rest_length[edge];
+    sim->broken_length[copy] = sim->broken_length[edge];
+    sim->edge_active[copy] = sim->edge_active[edge];
+    parts_extend(b->topology->tail, b->point_end, b->edge_end);
+    comes_into(sim, b, copy);
+    return copy;
+}
+
+bool topology_can_cut(struct sim *sim, struct sim_balloon *b)
+{
+    (void)sim;
+    struct topology *top = b->topology;
+    enum { FANS = 128 }; /* more triangles than two ends have */
+    const bool room = b->point_room - b->point_end >= 2 && b->edge_room - b->edge_end >= 1 &&
+                      top->tail->edge_in_room - top->tail->edge_in_count >= FANS &&
+                      top->tail->triangle_in_room - top->tail->triangle_in_count >= FANS;
+    top->now.refused += !room;
+    return room;
+}
+
+void topology_cut(struct sim *sim, struct sim_balloon *b, uint32_t triangle, int side)
+{
+    struct topology *top = b->topology;
+    const uint32_t edge = sim->triangle_edge[triangle][side], other = neighbours(b, triangle)[side];
+    const int other_side = side_of(sim, other, edge);
+    neighbours(b, triangle)[side] = neighbours(b, other)[other_side] = MESH_NONE;
+    const uint32_t sides[2][2] = {{triangle, (uint32_t)side}, {other, (uint32_t)other_side}};
+    memcpy(top->rim + top->now.rims, sides, sizeof sides);
+    top->now.rims += 2;
+    top->now.torn += sim->rest_length[edge];
+    sim->triangle_edge[other][other_side] = double_edge(sim, b, edge);
+    for (int end = 0; end < 2; end++) {
+        /* at the side's first corner the rest of the triangle's fan lies against the clock, at its second with it */
+        const struct fan from = {triangle, (side + end) % 3};
+        const uint32_t point = sim->triangle_point[triangle][from.corner];
+        struct fan last = from;
+        while (last.triangle != other && turn(sim, b, &last, end == 0))
+            ;
+        if (last.triangle != other)
+            split(sim, b, (struct fan){other, corner_of(sim, other, point)}, end == 1, from);
+    }
+    sim->changed = true;
+}
+
+uint32_t topology_piece(const struct sim *sim, const struct sim_balloon *b, uint32_t triangle, int side,
+                        uint32_t most, uint32_t *list, unsigned char *seen, double *area)
+{
+    (void)sim;
+    const uint32_t first = b->triangle_begin, barrier = neighbours(b, triangle)[side];
+    uint32_t count = 1, done = 0;
+    *area = 0;
+    list[0] = triangle;
+    seen[triangle - first] = 1;
+    while (done < count && count != UINT32_MAX) {
+        const uint32_t t = list[done++];
+        *area += b->topology->rest_area[t - first];
+        for (int k = 0; k < 3; k++) {
+            const uint32_t n = neighbours(b, t)[k];
+            if (n == MESH_NONE || seen[n - first] || (t == triangle && n == barrier))
+                continue;
+            if (count == most) {
+                done = count;
+                count = UINT32_MAX;
+                break;
+            }
+            seen[n - first] = 1;
+            list[count++] = n;
+        }
+    }
+    const uint32_t marked = count == UINT32_MAX ? most : count;
+    for (uint32_t i = 0; i < marked; i++)
+        seen[list[i] - first] = 0;
+    return count;
+}

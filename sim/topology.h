@@ -1,0 +1,86 @@
+/*
+ * How a balloon's triangles hang together, and how they come apart: the skin is cut along edges. Points are doubled where a cut
+ * goes through them; no triangle is lost, nor any mass, area at rest or momentum.
+ *
+ *     balloon->topology                                    made by topology_open() where a scene tears (fracture)
+ *     if (topology_can_cut(sim, balloon)) ...              room is left
+ *     topology_cut(sim, balloon, triangle, side);          cut the edge from corner `side` to the next
+ *
+ * A cut of an edge inside the skin makes a slit, at an end that lies on a rim it splits the point: of the triangles around it those on the
+ * neighbour's side get a new point, which takes its share of the mass by their thirds of area at rest and has the same place
+ * and speed. No point is ever left with two fans of triangles. The neighbour gets an edge of its own; each of the two springs keeps
+ * half the stiffness.
+ *
+ * How it fits parts and chunks (parts.c). Points and edges have room behind point_end and edge_end, which move up. What is new is worked on
+ * by a part of its own, the balloon's last; edges and triangles keep their slots, and those that have got a new point join that part's
+ * lists of what comes in. New edges come into the parts of their old points, ahead of all others. So what acts on a point is added up
+ * in an order that does not depend on the parts, and a cut touches memory around it alone.
+ *
+ * Numbers of triangles and sides are those of sim's tables.
+ */
+#ifndef SIM_TOPOLOGY_H
+#define SIM_TOPOLOGY_H
+
+#include "sim/sim.h"
+
+/* A balloon's connections. Arrays are owned; [triangles], [points] and [edges] are of the balloon's triangles, points
+ * with room and edges with room, from its first on. */
+struct topology {
+    uint32_t (*neighbour)[3]; /* [triangles] across side k, from corner k to the next; MESH_NONE: a rim */
+    double *rest_area;        /* [triangles] */
+    double (*rest)[3];        /* [points] places at rest */
+    uint32_t *triangle_at;    /* [points] one of the triangles around it */
+    unsigned char *late_edge; /* [edges] 1: in the last part's list */
+    unsigned char *late_triangle;
+    struct sim_part *tail; /* the balloon's last part: what is new */
+    uint32_t old_points, old_edges;
+    uint32_t rim_room;
+    uint32_t (*rim)[2]; /* [rim_room] triangle and side of each side of a rim, as they were cut */
+    double area;        /* of the whole skin at rest */
+
+    /* What the future depends on; no padding. */
+    struct topology_counts {
+        uint32_t points, edges;              /* that are new */
+        uint32_t late_edges, late_triangles; /* in the last part's lists */
+        uint32_t rims;                       /* sides in rim */
+        uint32_t refused;                    /* cuts for which there was no room */
+        double torn;                         /* length at rest of all that was cut */
+    } now;
+};
+
+/* Room for new points and edges of a balloon with so many points, whose cracks may be so many radii long. */
+uint32_t topology_room(const struct scene_fracture *fracture, uint32_t points);
+
+/* Makes and frees what belongs to one balloon. Errors: STATUS_NO_MEMORY. */
+enum status topology_open(struct sim *sim, struct sim_balloon *balloon, struct error *err);
+void topology_close(struct sim_balloon *balloon);
+
+/* Blocks of state; and what follows from them, after they were put back. */
+size_t topology_blocks(struct sim *sim, struct sim_balloon *balloon, struct sim_block *blocks);
+void topology_restored(struct sim *sim, struct sim_balloon *balloon);
+
+/* One triangle after another around a point. */
+struct fan {
+    uint32_t triangle;
+    int corner; /* of the triangle, that is the point */
+};
+
+/* The first of the triangles around a point counted against the clock, seen from outside: the one whose side before it is a rim; any,
+ * and true, where there is no rim. */
+bool topology_first(const struct sim *sim, const struct sim_balloon *balloon, uint32_t point,
+                    struct fan *fan);
+/* The next against the clock; false at a rim, and then *fan stays. */
+bool topology_next(const struct sim *sim, const struct sim_balloon *balloon, struct fan *fan);
+
+/* Whether there is room for another cut; counts one as refused if not. */
+bool topology_can_cut(struct sim *sim, struct sim_balloon *balloon);
+
+/* Cuts the edge across `side` of a triangle, which must not be a rim. Does not allocate; takes the time of the two ends' triangles. */
+void topology_cut(struct sim *sim, struct sim_balloon *balloon, uint32_t triangle, int side);
+
+/* Triangles of the piece that would fall off if the side were cut between two points of a rim, from `triangle` on and no more than `most`
+ * of them; their area at rest is added up. Returns their count, or UINT32_MAX when there are more. list has room for `most`. */
+uint32_t topology_piece(const struct sim *sim, const struct sim_balloon *balloon, uint32_t triangle, int side,
+                        uint32_t most, uint32_t *list, unsigned char *seen, double *area);
+
+#endif
