@@ -8,6 +8,7 @@
 #include "common/vec3.h"
 #include "sim/effects.h"
 #include "sim/guard.h"
+#include "sim/kernels.h"
 
 static bool wanted(const struct scene *scene)
 {
@@ -41,22 +42,11 @@ static void add_to_own(const struct sim_part *part, double (*to)[4], const uint3
                 to[p[k]][i] += factor * add[i];
 }
 
-static void blow_at(struct sim *sim, const struct sim_part *part, uint32_t t)
-{
-    const uint32_t *p = sim->triangle_point[t];
-    const struct flow flow = flow_at(sim, p);
-    if (sim->triangle_active[t] && flow.squared > 0)
-        add_to_own(part, sim->force, p, flow.factor * flow.across * fabs(flow.across) / flow.squared / 3,
-                   flow.twice);
-}
-
 static void blow(struct sim *sim, const struct sim_part *part, void *context)
 {
     (void)context;
-    for (uint32_t i = 0; i < part->triangle_in_count; i++)
-        blow_at(sim, part, part->triangle_in[i]);
-    for (uint32_t t = part->triangle_begin; t < part->triangle_end; t++)
-        blow_at(sim, part, t);
+    const struct scene_drag *drag = &sim->scene->drag;
+    sim->kernels->drag_triangles(sim, part, drag->air_density * drag->coefficient / 12, drag->wind);
 }
 
 static void apply(struct sim *sim, struct sim_balloon *balloon)

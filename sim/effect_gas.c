@@ -126,7 +126,8 @@ static void pump_and_leak(struct sim *sim, const struct sim_balloon *b)
     const struct gas_drive in = gas_drive(sim, b);
     const double gauge = in.pressure - gas->scene->ambient,
                  missing = gas->scene->pump_until * gas->filling - gas_amount(sim, gas);
-    const double pumped = fmax(0, fmin(gas->scene->pump * gas->filling, missing / sim->step));
+    const double rate = gas->memory.neck_open ? 0 : gas->scene->pump * gas->filling;
+    const double pumped = fmax(0, fmin(rate, missing / sim->step));
     const double leaked = fmin(gas->scene->leak * gas->scene->ambient, in.to_even) * gauge;
     gas_stream(sim, b, pumped, 1);
     gas_stream(sim, b, -leaked, 1);
@@ -305,7 +306,8 @@ static double pushing_power(const struct sim *sim, uint32_t begin, uint32_t end,
     return power;
 }
 
-/* What pumps bring and what the air lifts is work; what streams out is lost, and what a hole's edge does not catch of the pressure. */
+/* What pumps bring and what the air lifts is work; what streams out is lost, but for its thrust's work, and so is what a
+ * hole's edge does not catch of the pressure. */
 static void power(struct sim *sim, struct sim_balloon *b, double *dissipated, double *work)
 {
     const struct gas *gas = b->gas;
@@ -316,7 +318,7 @@ static void power(struct sim *sim, struct sim_balloon *b, double *dissipated, do
                                            gas->scene->ambient, rate[GAS_AMOUNT], rate[GAS_ENTROPY]);
     const double gauge = gas->pressure - gas->scene->ambient;
     *(streams > 0 ? work : dissipated) += fabs(streams);
-    *dissipated += gauge * gas_fan_change(sim, b, sim->velocity);
+    *dissipated += gauge * gas_fan_change(sim, b, sim->velocity) - gas_thrust_power(sim, b);
     if (gas->air_weight > 0) {
         const struct areas_pressure q = pressure_of(sim, b, gas->pressure, gas->volume);
         struct moving m = {b, q.constant - gauge, {q.gradient[0], q.gradient[1], q.gradient[2]}};

@@ -212,6 +212,42 @@ static void push_areas(struct sim *sim, const struct sim_part *part, double cons
         force[p] += (c + dot(d, position[p])) * (1 / (real)6) * twice_area[p];
 }
 
+/* The air's resistance (effect_drag.c): factor (w . N) |w . N| N/|N|^2, N twice the area vector, w the wind less the mean speed. */
+static inline row drag_force(const struct sim *sim, const uint32_t *p, real factor, row wind)
+{
+    const row *position = sim->rows.position, *velocity = sim->rows.velocity;
+    const row n = triangle_normal(position, p, false);
+    const row w = wind - (velocity[p[0]] + velocity[p[1]] + velocity[p[2]]) * (1 / (real)3);
+    const real across = dot(w, n), squared = dot(n, n);
+    return factor * across * (across < 0 ? -across : across) * inverse(squared) * n;
+}
+
+static void drag_triangles(struct sim *sim, const struct sim_part *part, double factor, const double *wind)
+{
+    row *force = sim->rows.force;
+    const row w = {(real)wind[0], (real)wind[1], (real)wind[2], 0};
+    const real f = (real)factor;
+    for (uint32_t i = 0; i < part->triangle_in_count; i++) {
+        const uint32_t t = part->triangle_in[i];
+        if (sim->triangle_active[t])
+            add_to_own(part, force, sim->triangle_point[t], drag_force(sim, sim->triangle_point[t], f, w));
+    }
+    for (const struct sim_chunk *c = part->chunks; c < part->chunks + part->chunk_count; c++) {
+        const uint32_t(*point)[3] = (const uint32_t(*)[3])sim->triangle_point;
+        const unsigned char *active = sim->triangle_active;
+        for (uint32_t t = c->triangle_begin; t < c->triangle_inner_end; t++)
+            if (active[t]) {
+                const row push = drag_force(sim, point[t], f, w);
+                force[point[t][0]] += push;
+                force[point[t][1]] += push;
+                force[point[t][2]] += push;
+            }
+        for (uint32_t t = c->triangle_inner_end; t < c->triangle_end; t++)
+            if (active[t])
+                add_to_own(part, force, point[t], drag_force(sim, point[t], f, w));
+    }
+}
+
 static double sum_volume(const struct sim *sim, uint32_t begin, uint32_t end, const double *origin)
 {
     const row *twice_area = sim->rows.normal, *position = sim->rows.position;
@@ -259,4 +295,4 @@ static uint32_t count_overlong(const struct sim *sim, const struct sim_part *par
 extern const struct sim_kernels SIM_KERNELS;
 const struct sim_kernels SIM_KERNELS = {clear_points,     coming_forces,   edge_forces,    coming_normals,
                                         triangle_normals, pressure_forces, count_overlong, coming_areas,
-                                        triangle_areas,   push_areas,      sum_volume};
+                                        triangle_areas,   push_areas,      drag_triangles, sum_volume};

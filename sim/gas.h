@@ -28,7 +28,8 @@ struct gas {
     uint32_t neck_count;
     unsigned char *held; /* [points] of the balloon: 0 where a piece has fallen off; owned */
 
-    double volume, pressure; /* by the last sim_forces() */
+    /* By the last sim_forces(); the thrust beyond the missing pressure on a unit of a hole's area, and that of the neck. */
+    double volume, pressure, rim_thrust, neck_thrust;
 
     struct gas_memory {
         double bound_volume, bound_pressure, bound_gauge; /* for which the guard's bound was found */
@@ -54,6 +55,9 @@ double gas_fan_change(const struct sim *sim, const struct sim_balloon *balloon, 
 /* What gets out through holes and neck a second: sets the rates of the scalars for it, and adds the jets' thrust to the forces beyond the
  * pressure that is missing where the holes are. */
 void gas_let_out(struct sim *sim, struct sim_balloon *balloon);
+
+/* What that thrust does to the skin's energy a second, by the last sim_forces(). */
+double gas_thrust_power(const struct sim *sim, const struct sim_balloon *balloon);
 
 /* Area of all openings. */
 double gas_openings(const struct gas *gas);

@@ -82,29 +82,54 @@ double gas_openings(const struct gas *gas)
     return area;
 }
 
-/* The jet's thrust beyond the pressure that is missing at the hole, `extra` a unit of area, alike on all of the rim. */
-static void thrust_on_rims(struct sim *sim, const struct sim_balloon *balloon, double extra)
+/* to += factor x the thrust of the last jets on each point: at rims what is beyond the pressure that is missing there, alike on all of
+ * the rim; at the neck against the way in which it looks. */
+static void add_thrust(const struct sim *sim, const struct sim_balloon *balloon, void *context,
+                       void (*add)(void *context, uint32_t point, const double force[3]))
 {
-    const struct gas_holes *holes = &balloon->gas->holes;
-    const struct gas_rims *rims = balloon->rims;
-    for (uint32_t i = 0; holes->count && i < rims->side_count; i++) {
-        const uint32_t h = hole_of(rims, i);
+    const struct gas *gas = balloon->gas;
+    const struct gas_holes *holes = &gas->holes;
+    double out[3] = {0}, force[3];
+    for (uint32_t i = 0; holes->count && i < balloon->rims->side_count; i++) {
+        const uint32_t h = hole_of(balloon->rims, i);
         for (int k = 0; k < 3; k++)
-            sim->force[rims->side[i][0]][k] += extra * holes->area[h][k] / holes->sides[h];
+            force[k] = gas->rim_thrust * holes->area[h][k] / holes->sides[h];
+        add(context, balloon->rims->side[i][0], force);
     }
-}
-
-/* Against the way in which the neck looks. */
-static void thrust_on_neck(struct sim *sim, const struct gas *gas, double force)
-{
-    double out[3] = {0};
     for (uint32_t i = 0; i < gas->neck_count; i++)
         for (int k = 0; k < 3; k++)
             out[k] += sim->normal[gas->neck[i]][k];
     const double length = vec3_length(out);
-    for (uint32_t i = 0; i < gas->neck_count && length > 0; i++)
+    for (uint32_t i = 0; i < gas->neck_count && length > 0; i++) {
         for (int k = 0; k < 3; k++)
-            sim->force[gas->neck[i]][k] -= force * out[k] / length / gas->neck_count;
+            force[k] = -gas->neck_thrust * out[k] / length / gas->neck_count;
+        add(context, gas->neck[i], force);
+    }
+}
+
+static void add_force(void *context, uint32_t point, const double force[3])
+{
+    double(*rows)[4] = context;
+    for (int k = 0; k < 3; k++)
+        rows[point][k] += force[k];
+}
+
+struct power {
+    const struct sim *sim;
+    double sum;
+};
+
+static void add_power(void *context, uint32_t point, const double force[3])
+{
+    struct power *power = context;
+    power->sum += vec3_dot(force, power->sim->velocity[point]);
+}
+
+double gas_thrust_power(const struct sim *sim, const struct sim_balloon *balloon)
+{
+    struct power power = {sim, 0};
+    add_thrust(sim, balloon, &power, add_power);
+    return power.sum;
 }
 
 /* Air that is drawn in pushes at nothing: its speed is lost inside. */
@@ -113,6 +138,7 @@ void gas_let_out(struct sim *sim, struct sim_balloon *balloon)
     struct gas *gas = balloon->gas;
     const struct scene_gas *scene = gas->scene;
     const double area = gas_openings(gas);
+    gas->rim_thrust = gas->neck_thrust = 0;
     if (area == 0)
         return;
     const struct gas_drive in = gas_drive(sim, balloon);
@@ -123,8 +149,9 @@ void gas_let_out(struct sim *sim, struct sim_balloon *balloon)
         const double rate = jet.flux * area * in.amount_of_mass, share = rate > most ? most / rate : 1;
         gas_stream(sim, balloon, -share * rate, in.warmth);
         sim->scalar_rate[gas->scalar + GAS_BROUGHT] -= share * rate;
-        thrust_on_rims(sim, balloon, share * jet.thrust - gauge);
-        thrust_on_neck(sim, gas, share * jet.thrust * neck_area(gas));
+        gas->rim_thrust = share * jet.thrust - gauge;
+        gas->neck_thrust = share * jet.thrust * neck_area(gas);
+        add_thrust(sim, balloon, sim->force, add_force);
     } else if (gauge < 0) {
         const struct gas_jet jet = gas_jet(scene->ambient, scene->density, in.pressure, scene->gamma,
                                            scene->discharge);

@@ -22,6 +22,8 @@ struct sim_kernels {
     void (*coming_areas)(struct sim *sim, const struct sim_part *part);
     void (*triangle_areas)(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk);
     void (*push_areas)(struct sim *sim, const struct sim_part *part, double constant, const double *gradient);
+    /* Adds the air's resistance (effect_drag.c): the factor r C/12, and the wind. */
+    void (*drag_triangles)(struct sim *sim, const struct sim_part *part, double factor, const double *wind);
     double (*sum_volume)(const struct sim *sim, uint32_t begin, uint32_t end,
                          const double *origin); /* 18 V */
 };

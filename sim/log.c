@@ -1,5 +1,6 @@
 #include "sim/log.h"
 #include "common/file.h"
+#include "sim/effect_gas.h"
 #include "sim/ledger.h"
 
 #include <math.h>
@@ -70,6 +71,13 @@ enum status sim_log_open(const char *path, const struct sim_log_options *options
     return status;
 }
 
+/* Of the first balloon. */
+static double gauge_pressure(struct sim *sim)
+{
+    const struct sim_balloon *b = &sim->balloons[0];
+    return b->gas ? gas_look(sim, b).gauge_pressure : b->now->pressure;
+}
+
 void sim_log_row(struct sim_log *log, struct sim *sim, double position_error)
 {
     const struct sim_measures m = sim_measure(sim);
@@ -85,7 +93,7 @@ void sim_log_row(struct sim_log *log, struct sim *sim, double position_error)
         row, sizeof row,
         "%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%u\t%u\t%.9g\t%u\t%.9g\t%.9g\t%.3f\t%.9g\t%.9g\t%.9g\t%.9g\t"
         "%.9g\t%.3g%s\n",
-        sim->time, m.mean_radius, m.volume, sim->settings[0].pressure, m.kinetic_energy, m.elastic_energy,
+        sim->time, m.mean_radius, m.volume, gauge_pressure(sim), m.kinetic_energy, m.elastic_energy,
         m.max_stretch, m.edges_active, m.triangles_active, m.area, m.pieces, m.largest_piece_area,
         sim->taken > 0 ? sim->taken : sim->step, seconds, b.gas, b.dissipated, b.fracture, b.pressure_work,
         b.user_work, b.error, error);

@@ -1,5 +1,6 @@
 /* balloon-sim: inflates the balloons of a scene until they burst. */
 #include "common/command.h"
+#include "sim/explain.h"
 #include "sim/guard.h"
 #include "sim/price.h"
 #include "sim/run.h"
@@ -67,24 +68,6 @@ static void print_check(struct sim *sim)
            sim->scene->time.end / sim->step, method->name, method->order, method->source);
 }
 
-static void print_effects(const struct scene *scene)
-{
-    for (const struct effect *const *effect = effects; *effect; effect++) {
-        size_t wanted = 0;
-        for (size_t i = 0; i < scene->balloon_count; i++)
-            wanted += (*effect)->wanted && (*effect)->wanted(&scene->balloons[i]);
-        if ((*effect)->scene_wanted)
-            printf((*effect)->scene_wanted(scene) ? "on\t%s\tthe scene has the block (%s)\n"
-                                                  : "off\t%s\tthe scene has no such block\n",
-                   (*effect)->name, (*effect)->source);
-        else if (wanted)
-            printf("on\t%s\t%zu of %zu balloons have the block (%s)\n", (*effect)->name, wanted,
-                   scene->balloon_count, (*effect)->source);
-        else
-            printf("off\t%s\tno balloon has the block\n", (*effect)->name);
-    }
-}
-
 /* Checks or runs a scene, whose meshes are no longer needed once the sim is open, and are freed. */
 static enum status simulate(const struct options *options, const struct scene *scene, struct mesh **meshes,
                             struct error *err)
@@ -114,7 +97,7 @@ static enum status perform(const struct options *options, struct error *err)
     struct mesh *meshes = NULL;
     enum status status = load_scene(options, &scene, err);
     if (!status && options->explain) {
-        print_effects(&scene);
+        explain_effects(&scene, stdout);
     } else if (!status) {
         status = load_meshes(&scene, &meshes, err);
         if (!status && options->accuracy_cost && !options->check)

@@ -48,6 +48,16 @@ static void note_method(struct run *run)
     }
 }
 
+/* What effects tell: that they wake, or go to sleep. */
+static void note_news(struct sim *sim)
+{
+    for (size_t i = 0; i < sim->news_count; i++) {
+        const struct sim_news *news = &sim->news[i];
+        command_note("at %.4g s: balloons[%zu]: %s: %s", news->time, news->balloon, news->effect, news->text);
+    }
+    sim->news_count = 0;
+}
+
 static enum status keep(struct run *run, struct error *err)
 {
     struct checkpoint_run whole = {.first_break = run->first_break,
@@ -86,6 +96,7 @@ static enum status step(struct run *run, struct error *err)
     struct sim *sim = run->sim;
     enum status status = sim_step(sim, err);
     note_method(run);
+    note_news(sim);
     if (sim->broken && run->first_break < 0)
         run->first_break = sim->time;
     return status ? status : outputs_show(&run->outputs, sim, err);
