@@ -59,6 +59,12 @@ enum status sim_diverged(struct sim *sim, double energy, struct error *err)
     describe_edge(sim, b, p, edge, sizeof edge);
     if (sim->whole_step > guard_stable_step(sim))
         guard_describe(sim, advice, sizeof advice);
+    else if (sim->scene->drag.on)
+        snprintf(
+            advice, sizeof advice,
+            "steps of %g are surely stable at the speeds of the start only, and drag grows with speed: try a "
+            "smaller time.step",
+            sim->step);
     return error_set(
         err, STATUS_DIVERGED,
         "%s: diverged at time %g (step %llu): point %u of balloons[%zu] is at (%g, %g, %g), moving at "
