@@ -99,6 +99,8 @@ enum status scene_check(struct scene *scene, struct error *err)
         if (!status)
             status = scene_check_membrane(scene, i, err);
         if (!status)
+            status = scene_check_fracture(scene, i, err);
+        if (!status)
             status = scene_check_gas(scene, i, err);
         if (!status)
             status = scene_check_places(scene, i, err);

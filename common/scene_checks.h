@@ -17,6 +17,8 @@ enum status scene_check_places(const struct scene *scene, size_t number, struct 
 
 /* Ground and needles: a slope without direction, a needle that is nowhere. */
 enum status scene_check_surroundings(const struct scene *scene, struct error *err);
+/* A skin that tears by a method, or with springs, that cannot follow it (scene_checks_skin.c). */
+enum status scene_check_fracture(const struct scene *scene, size_t number, struct error *err);
 /* A membrane without thickness, with springs' settings or springs' methods, or of no rubber (scene_checks_skin.c). */
 enum status scene_check_membrane(const struct scene *scene, size_t number, struct error *err);
 

@@ -37,6 +37,29 @@ static enum status check_viscosity(const struct scene *scene, size_t number, str
                                scene->time.step);
 }
 
+/* Methods that go by what hangs together at the start: their solvers' and constraints' tables are made once. */
+enum status scene_check_fracture(const struct scene *scene, size_t number, struct error *err)
+{
+    static const char *const fixed[] = {"backward-euler", "implicit-midpoint", "bdf2", "xpbd",
+                                        "cvode-bdf",      "cvode-adams",       "auto"};
+    const struct scene_balloon *b = &scene->balloons[number];
+    if (!b->fracture.on || b->fracture.mode != SCENE_FRACTURE_TEAR)
+        return STATUS_OK;
+    for (size_t i = 0; i < sizeof fixed / sizeof fixed[0]; i++)
+        if (!strcmp(scene_integrator_names[scene->time.integrator], fixed[i]))
+            return scene_contradiction(
+                scene, number, "fracture", b->fracture.line, err,
+                "time.integrator \"%s\" cannot follow a skin that tears; take an explicit "
+                "one, as \"symplectic-euler\" or \"verlet\", or mode = \"paper\"",
+                fixed[i]);
+    if (b->viscosity.on || b->plasticity.on)
+        return scene_contradiction(
+            scene, number, "fracture", b->fracture.line, err,
+            "springs with %s do not come apart; leave it out, or take mode = \"paper\"",
+            b->viscosity.on ? "viscosity" : "plasticity");
+    return STATUS_OK;
+}
+
 enum status scene_check_membrane(const struct scene *scene, size_t number, struct error *err)
 {
     const struct scene_balloon *b = &scene->balloons[number];

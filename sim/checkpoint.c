@@ -23,6 +23,8 @@ char *checkpoint_keys(const struct sim *sim)
 
 uint64_t checkpoint_fingerprint(const struct sim *sim)
 {
+    if (sim->fingerprint)
+        return sim->fingerprint;
     uint64_t hash = HASH_START;
     hash = hash_bytes(hash, sim->edge_point, sim->edge_count * sizeof *sim->edge_point);
     hash = hash_bytes(hash, sim->rest_length, sim->edge_count * sizeof *sim->rest_length);

@@ -240,7 +240,7 @@ static enum status read_state(struct reader *reader, struct error *err)
 {
     const size_t at = reader->at;
     enum status status = read_blocks(reader, err);
-    if (!status && !is_state(reader->sim))
+    if (!status && (!is_state(reader->sim) || !sim_restored(reader->sim)))
         return error_set(
             err, STATUS_INPUT,
             "the chunks DATA from byte %zu on are no state: a flag or a time is out of its range", at);

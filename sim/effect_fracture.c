@@ -1,5 +1,6 @@
 /* What tears, how its strength is scattered, and what the gas and the checkpoint are told: fracture.h is the rule. */
 #include "common/vec3.h"
+#include "sim/checkpoint.h"
 #include "sim/effects.h"
 #include "sim/fracture.h"
 
@@ -159,6 +160,7 @@ static enum status open(struct sim *sim, struct sim_balloon *b, struct error *er
     f->whole_energy = fracture_equal_energy(scene->strength);
     f->branch_energy = fracture_equal_energy(scene->branching);
     b->rims = &f->rims;
+    sim->fingerprint = checkpoint_fingerprint(sim);
     return STATUS_OK;
 }
 

@@ -94,9 +94,11 @@ static void apply(struct sim *sim, struct sim_balloon *balloon)
         needle_at(needle, fmax(sim->time - sim->taken, needle->at), prick.from);
         needle_at(needle, sim->time, prick.to);
         const struct hole hole = first_meeting(sim, &prick);
+        double place[3];
         for (int k = 0; k < 3 && hole.time < INFINITY; k++)
-            if (sim->edge_active[sim->triangle_edge[hole.triangle][k]])
-                sim_break_edge(sim, sim->triangle_edge[hole.triangle][k]);
+            place[k] = prick.from[k] + hole.time * (prick.to[k] - prick.from[k]);
+        if (hole.time < INFINITY)
+            sim_prick(sim, hole.triangle, place);
     }
 }
 

@@ -3,6 +3,7 @@
  * circle around the balloon's centre. */
 #include "common/vec3.h"
 #include "sim/effects.h"
+#include "sim/fracture.h"
 
 static bool wanted(const struct scene_balloon *balloon)
 {
@@ -71,7 +72,10 @@ static void apply(struct sim *sim, struct sim_balloon *balloon)
     if (balloon->now->ripped || sim->time < rip->at || mean_stretch(sim, balloon) < rip->stretch)
         return;
     balloon->now->ripped = 1;
-    cut(sim, balloon);
+    if (balloon->fracture)
+        fracture_rip(sim, balloon);
+    else
+        cut(sim, balloon);
 }
 
 const struct effect effect_rip = {

@@ -1,6 +1,7 @@
 #include "sim/fracture.h"
 #include "common/threads.h"
 #include "common/vec3.h"
+#include "sim/guard.h"
 
 #include <math.h>
 #include <string.h>
@@ -172,9 +173,61 @@ void fracture_prick(struct sim *sim, struct sim_balloon *b, const double place[3
     for (uint32_t p = b->point_begin; p < b->point_end; p++)
         if (vec3_distance(sim->position[p], place) < vec3_distance(sim->position[nearest], place))
             nearest = p;
+    if (is_near_birth(b, b->topology->rest[nearest - b->point_begin], 0.15) || !topology_can_cut(sim, b))
+        return; /* the needle is still in the hole that it made */
     b->fracture->stamps++;
     open_at(sim, b, nearest, 0.075 * b->fracture->radius);
     fracture_tell_gas(sim, b);
+}
+
+/* At the point at rest that lies most nearly in the direction of place. */
+void fracture_rip(struct sim *sim, struct sim_balloon *b)
+{
+    const struct scene_rip *rip = &b->scene->rip;
+    uint32_t nearest = b->point_begin;
+    double most = -INFINITY;
+    for (uint32_t p = b->point_begin; p < b->topology->old_points; p++) {
+        double from_centre[3];
+        vec3_sub(b->topology->rest[p - b->point_begin], b->centre, from_centre);
+        const double along = vec3_dot(from_centre, rip->place) / vec3_length(from_centre);
+        if (along > most) {
+            most = along;
+            nearest = p;
+        }
+    }
+    b->fracture->stamps++;
+    fracture_slit(sim, b, nearest, rip->direction, rip->length / 2 * b->radius);
+    fracture_tell_gas(sim, b);
+}
+
+bool fracture_is_sound(const struct sim *sim, const struct sim_balloon *b)
+{
+    const struct fracture *f = b->fracture;
+    bool sound = topology_is_sound(sim, b) && f->now.tips <= TIPS_MAX && f->now.births <= BIRTHS_MAX;
+    for (uint32_t i = 0; sound && i < f->now.tips; i++)
+        sound = f->tips[i].point >= b->point_begin &&
+                f->tips[i].point < b->topology->old_points + b->topology->now.points;
+    return sound;
+}
+
+void fracture_restored(struct sim *sim, struct sim_balloon *b)
+{
+    topology_restored(sim, b);
+    fracture_tell_gas(sim, b);
+}
+
+void sim_prick(struct sim *sim, uint32_t triangle, const double place[3])
+{
+    struct sim_balloon *b = sim->balloons;
+    while (triangle >= b->triangle_end)
+        b++;
+    if (b->fracture) {
+        fracture_prick(sim, b, place);
+        return;
+    }
+    for (int k = 0; k < 3; k++)
+        if (sim->edge_active[sim->triangle_edge[triangle][k]])
+            sim_break_edge(sim, sim->triangle_edge[triangle][k]);
 }
 
 static void births(struct sim *sim, struct sim_balloon *b)
@@ -214,6 +267,11 @@ void fracture_step(struct sim *sim, struct sim_balloon *b)
         snap_strands(sim, b);
     }
     fracture_tips(sim, b);
-    if (b->topology->now.edges != cuts)
-        fracture_tell_gas(sim, b);
+    const uint32_t now = b->topology->now.edges;
+    if (now == cuts)
+        return;
+    fracture_tell_gas(sim, b);
+    if ((now ^ cuts) >
+        cuts) /* the number has a digit more: the bound on the step is looked at again, a dozen times in all */
+        guard_outdated(sim);
 }

@@ -72,6 +72,13 @@ uint32_t fracture_slit(struct sim *sim, struct sim_balloon *balloon, uint32_t po
 /* What a needle's touch or a click does: a slit of 0.15 R at the balloon's point nearest to a place as the skin is now, across the largest tension there. */
 void fracture_prick(struct sim *sim, struct sim_balloon *balloon, const double place[3]);
 
+/* The scene's rip as a slit. */
+void fracture_rip(struct sim *sim, struct sim_balloon *balloon);
+
+/* Whether what came from a file can be cracks; what follows from them, once blocks were put back. */
+bool fracture_is_sound(const struct sim *sim, const struct sim_balloon *balloon);
+void fracture_restored(struct sim *sim, struct sim_balloon *balloon);
+
 /* Mean direction of the largest tension around a point, as it lies in the skin at rest. */
 void fracture_tension(const struct sim *sim, const struct sim_balloon *balloon, uint32_t point,
                       double direction[3]);

@@ -177,8 +177,10 @@ void live_prick(struct live *live, const struct hand_hit *hit)
 {
     struct sim *sim = live->sim;
     go_on_from_here(live);
-    for (int k = 0; k < 3; k++)
-        if (sim->edge_active[sim->triangle_edge[hit->triangle][k]])
-            sim_break_edge(sim, sim->triangle_edge[hit->triangle][k]);
-    sim->triangle_active[hit->triangle] = 0; /* also while nothing steps */
+    const struct sim_balloon *b = sim->balloons;
+    while (hit->triangle >= b->triangle_end)
+        b++;
+    sim_prick(sim, hit->triangle, hit->place);
+    if (!b->fracture)
+        sim->triangle_active[hit->triangle] = 0; /* also while nothing steps */
 }

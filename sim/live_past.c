@@ -115,6 +115,7 @@ void live_past_restore(const struct live_past *past, size_t i, struct sim *sim)
                 memcpy(blocks[k].data, chunk->data, size);
         }
     }
+    sim_restored(sim);
 }
 
 void live_past_forget_after(struct live_past *past, size_t i)

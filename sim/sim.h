@@ -313,6 +313,7 @@ struct sim {
     struct obstacles *obstacles; /* what stands in the way (obstacles.h); NULL: nothing */
     struct contact *contact;     /* what keeps skins apart (contact.h); NULL: nothing */
     struct hand *hand;           /* that pulls at it (live_hand.h); NULL: none */
+    uint64_t fingerprint;        /* checkpoint_fingerprint() before anything was cut; 0: nothing can be */
     uint64_t
         evaluations;   /* of sim_forces() since sim_open(), also of those for a look; nothing depends on it */
     uint64_t products; /* of sim_force_product(), likewise */
@@ -393,6 +394,12 @@ static inline void sim_break_edge(struct sim *sim, uint32_t edge)
 /* Lists all that the future depends on (state.c): equal blocks, equal futures. Returns how many there are. The addresses
  * stay until sim_clear(). */
 size_t sim_blocks(struct sim *sim, struct sim_block blocks[SIM_BLOCKS_MAX]);
+
+/* What follows from blocks that were put back (sim_blocks()): false, and nothing done, where they are no state of a torn skin. */
+bool sim_restored(struct sim *sim);
+
+/* What a needle's point does to a triangle that it meets at a place: a slit, or in the paper's skin its edges let go. */
+void sim_prick(struct sim *sim, uint32_t triangle, const double place[3]);
 
 /* How many of the scalars are the state's own: those after them only record, and are not hashed. */
 uint32_t sim_state_scalars(const struct sim *sim);

@@ -125,13 +125,19 @@ void skins_view(const struct scene_view *scene, struct render_view *view)
 double skins_ball(const struct sim *sim, double centre[3])
 {
     double radius = 0;
+    const struct sim_balloon *end = sim->balloons + sim->balloon_count;
     for (int i = 0; i < 3; i++) {
         double sum = 0;
-        for (uint32_t p = 0; p < sim->point_count; p++)
-            sum += sim->position[p][i];
-        centre[i] = sum / sim->point_count;
+        uint32_t count = 0;
+        for (const struct sim_balloon *b = sim->balloons; b < end; b++) {
+            for (uint32_t p = b->point_begin; p < b->point_end; p++)
+                sum += sim->position[p][i];
+            count += b->point_end - b->point_begin;
+        }
+        centre[i] = sum / count;
     }
-    for (uint32_t p = 0; p < sim->point_count; p++)
-        radius = fmax(radius, vec3_distance(sim->position[p], centre));
+    for (const struct sim_balloon *b = sim->balloons; b < end; b++)
+        for (uint32_t p = b->point_begin; p < b->point_end; p++)
+            radius = fmax(radius, vec3_distance(sim->position[p], centre));
     return radius;
 }

@@ -1,6 +1,7 @@
 /* What the future depends on: the one list that checkpoints, rewinding, trial steps and the hash go by. */
 #include "common/hash.h"
 #include "common/vec3.h"
+#include "sim/fracture.h"
 #include "sim/guard.h"
 
 double sim_edge_length(const struct sim *sim, uint32_t edge)
@@ -62,6 +63,17 @@ size_t sim_blocks(struct sim *sim, struct sim_block blocks[SIM_BLOCKS_MAX])
         blocks[count++] = (struct sim_block){"ledger's rates", &sim->scalar_scratch[0][first],
                                              (sim->scalar_count - first) * sizeof *sim->scalar};
     return count;
+}
+
+bool sim_restored(struct sim *sim)
+{
+    for (struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
+        if (b->fracture && !fracture_is_sound(sim, b))
+            return false;
+    for (struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
+        if (b->fracture)
+            fracture_restored(sim, b);
+    return true;
 }
 
 uint64_t sim_hash(struct sim *sim)

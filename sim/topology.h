@@ -58,6 +58,8 @@ void topology_close(struct sim_balloon *balloon);
 /* Blocks of state; and what follows from them, after they were put back. */
 size_t topology_blocks(struct sim *sim, struct sim_balloon *balloon, struct sim_block *blocks);
 void topology_restored(struct sim *sim, struct sim_balloon *balloon);
+/* Whether blocks that may be anything are those of a skin, before topology_restored(). */
+bool topology_is_sound(const struct sim *sim, const struct sim_balloon *balloon);
 
 /* One triangle after another around a point. */
 struct fan {
