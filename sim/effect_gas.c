@@ -168,11 +168,12 @@ static void apply(struct sim *sim, struct sim_balloon *b)
     gas_let_out(sim, b);
 }
 
-/* The gas is gone once the holes are wider than half a sphere of its volume: 2 pi R^2. */
+/* The gas is gone once the holes are wider than a sixth of a sphere of its volume, 2 R^2: they have then grown by a radius within the time
+ * that a collapsing skin takes for that, and what is inside no longer knows of one pressure. */
 static bool is_gone(const struct gas *gas)
 {
     const double radius = cbrt(3 * fmax(gas->volume, 0) / (4 * M_PI));
-    return gas->holes.count > 0 && gas_openings(gas) >= 2 * M_PI * radius * radius;
+    return gas->holes.count > 0 && gas_openings(gas) >= 2 * radius * radius;
 }
 
 static void let_all_go(struct sim *sim, struct sim_balloon *b)

@@ -11,6 +11,7 @@
  * energy per area of crack, so that the mesh's size drops out). It takes the edge with the largest tension across, forwards only, and then
  * rests for as long as a tip of `tip_speed` c takes to go there.
  * Forks. Where the skin ahead holds more than `branching` would, a tip goes two ways, and not again before it has run `spacing` R sqrt(W_branching/W).
+ * Strands. What holds pieces together snaps at twice the W of whole skin.
  * Strongest first, and nothing twice in a neighbourhood that has changed in this step.
  */
 #ifndef SIM_FRACTURE_H

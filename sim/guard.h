@@ -45,6 +45,11 @@ void guard_close(struct sim *sim);
 /* Something that the bound depends on is no longer what it was. */
 void guard_outdated(struct sim *sim);
 
+/* A point has been cut in two: `like` is the one of which the bound knew. Looks at what holds the point now, the edges in the list; if that
+ * asks for a shorter step, all is looked at anew. */
+void guard_cut(struct sim *sim, const struct sim_balloon *balloon, uint32_t point, uint32_t like,
+               const uint32_t *edges, uint32_t edge_count);
+
 /* The largest step that is surely stable as things are: INFINITY when any is, 0 when none is. */
 double guard_stable_step(struct sim *sim);
 

@@ -121,6 +121,31 @@ static enum guard_cause cause_at(const struct sim *sim, const struct limits *l, 
     return dampers > springs ? GUARD_DAMPERS : GUARD_SPRINGS;
 }
 
+void guard_cut(struct sim *sim, const struct sim_balloon *b, uint32_t point, uint32_t like,
+               const uint32_t *edges, uint32_t edge_count)
+{
+    struct guard *guard = sim->guard;
+    const struct limits l = limits_of(sim);
+    const struct membrane *m = b->membrane;
+    double springs = 0, dampers = 0;
+    if (!guard->memory.is_known)
+        return;
+    guard->x[point] = guard->x[like];
+    guard->rows.stiffness[point] = guard->rows.stiffness[like];
+    guard->rows.damping[point] = guard->rows.damping[like];
+    for (uint32_t i = 0; i < edge_count; i++) {
+        const uint32_t e = edges[i];
+        const double x = guard->x[sim->edge_point[e][0]] + guard->x[sim->edge_point[e][1]];
+        const double weight = m ? m->edge_weight[e - b->edge_begin] : 1;
+        springs += (m ? weight * m->stiffness : sim->current_spring_const[e]) * x;
+        dampers += (m ? weight * m->damping : b->now->damping) * x;
+    }
+    const double stiffness = springs / guard->x[point] + guard->rows.stiffness[point],
+                 damping = dampers / guard->x[point] + guard->rows.damping[point];
+    if (largest_step(&l, stiffness / sim->mass[point], damping / sim->mass[point]) < guard->memory.stable)
+        guard_outdated(sim);
+}
+
 void guard_find_bound(struct sim *sim)
 {
     enum { ITERATIONS_MAX = 40 };

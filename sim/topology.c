@@ -1,5 +1,6 @@
 #include "sim/topology.h"
 #include "common/vec3.h"
+#include "sim/guard.h"
 #include "sim/membrane.h"
 
 #include <stdlib.h>
@@ -271,6 +272,19 @@ static double fan_area(const struct sim *sim, const struct sim_balloon *b, struc
     return area;
 }
 
+/* The edges around a point of a rim. */
+static void tell_guard(struct sim *sim, struct sim_balloon *b, uint32_t point, uint32_t like)
+{
+    uint32_t edges[64], count = 0;
+    struct fan fan;
+    topology_first(sim, b, point, &fan);
+    edges[count++] = sim->triangle_edge[fan.triangle][fan.corner];
+    do
+        edges[count++] = sim->triangle_edge[fan.triangle][(fan.corner + 2) % 3];
+    while (count < 64 && topology_next(sim, b, &fan));
+    guard_cut(sim, b, point, like, edges, count);
+}
+
 /* The triangles around the point from `fan` on get a point of their own. */
 static void split(struct sim *sim, struct sim_balloon *b, struct fan fan, bool against_clock, struct fan rest)
 {
@@ -292,6 +306,8 @@ static void split(struct sim *sim, struct sim_balloon *b, struct fan fan, bool a
             edge_is_late(sim, b, edge);
         }
     } while (more);
+    tell_guard(sim, b, copy, point);
+    tell_guard(sim, b, point, point);
 }
 
 /* The neighbour's own edge: half the stiffness each. */
