@@ -20,12 +20,12 @@ struct inflated {
 
 /* How one is made; 0 is the usual. */
 struct inflation {
-    unsigned level;  /* of the icosphere */
-    double stretch;  /* it starts at rest there */
-    double turned;   /* radians: another mesh for the same balloon */
-    double step;     /* times the usual one */
+    unsigned level; /* of the icosphere */
+    double stretch; /* it starts at rest there */
+    double turned;  /* radians: another mesh for the same balloon */
+    double step;    /* times the usual one */
     unsigned workers;
-    bool springs;      /* in place of the membrane, without gas */
+    bool springs;        /* in place of the membrane, without gas */
     const char *keys[4]; /* of the scene, further ones */
 };
 
@@ -53,7 +53,6 @@ static inline void turn_mesh(struct mesh *mesh, double angle)
 static inline void set_skin(struct scene *scene, const struct inflation *how, double edge)
 {
     const double l = how->stretch, pressure = 2 * (1 / l - pow(l, -7));
-    struct error err = {0};
     if (how->springs) { /* as stiff and heavy as that: k = 4/sqrt 3 mu, all points together 4 pi */
         inflated_set(scene, "balloons[0].spring", 4 / sqrt(3));
         inflated_set(scene, "balloons[0].point_mass", 0.8660254 * edge * edge);
@@ -69,7 +68,6 @@ static inline void set_skin(struct scene *scene, const struct inflation *how, do
     inflated_set(scene, "balloons[0].gas.ambient", 30);
     inflated_set(scene, "balloons[0].gas.density", 0.15);
     inflated_set(scene, "balloons[0].gas.fill", l * l * l * (1 + pressure / 30));
-
 }
 
 static inline void inflate(struct inflated *it, const struct inflation *how)
