@@ -40,8 +40,8 @@ static enum status check_viscosity(const struct scene *scene, size_t number, str
 /* Methods that go by what hangs together at the start: their solvers' and constraints' tables are made once. */
 enum status scene_check_fracture(const struct scene *scene, size_t number, struct error *err)
 {
-    static const char *const fixed[] = {"backward-euler", "implicit-midpoint", "bdf2", "xpbd",
-                                        "cvode-bdf",      "cvode-adams",       "auto"};
+    static const char *const fixed[] = {"backward-euler", "implicit-midpoint", "bdf2",
+                                        "xpbd",           "cvode-bdf",         "cvode-adams"};
     const struct scene_balloon *b = &scene->balloons[number];
     if (!b->fracture.on || b->fracture.mode != SCENE_FRACTURE_TEAR)
         return STATUS_OK;
