@@ -101,7 +101,7 @@ static const char *needed_by(const char *path)
                                                           : "time.step=0.025";
 }
 
-/* A key that calls for a block which wants more is refused before anything runs. */
+/* A key that calls for a block which wants more, or puts the balloon into the ground, is refused before anything runs. */
 static bool is_refused(const char *needed, const char *change)
 {
     struct error err = {0};
@@ -109,9 +109,16 @@ static bool is_refused(const char *needed, const char *change)
     assert_ok(scene_from_mesh("sphere", &scene, &err), &err);
     assert_ok(scene_set(&scene, needed, &err), &err);
     assert_ok(scene_set(&scene, change, &err), &err);
-    const enum status status = scene_check(&scene, &err);
+    struct mesh mesh = {0};
+    struct sim sim = {0};
+    shape_icosphere(0, &mesh);
+    enum status status = scene_check(&scene, &err);
+    if (!status)
+        status = sim_open(&sim, &scene, &mesh, 1, &err);
     if (status)
         assert_refused(status, STATUS_INPUT, "sphere", &err);
+    sim_clear(&sim);
+    mesh_clear(&mesh);
     scene_clear(&scene);
     return status != STATUS_OK;
 }
