@@ -271,6 +271,8 @@ void fracture_step(struct sim *sim, struct sim_balloon *b)
     if (now == cuts)
         return;
     fracture_tell_gas(sim, b);
+    if (cuts == 0)
+        sim_tell(sim, b, "fracture", "the skin tears");
     if ((now ^ cuts) >
         cuts) /* the number has a digit more: the bound on the step is looked at again, a dozen times in all */
         guard_outdated(sim);

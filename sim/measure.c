@@ -1,5 +1,6 @@
 /* What the log tells about a state. */
 #include "common/vec3.h"
+#include "sim/fracture.h"
 #include "sim/membrane.h"
 
 /* Pieces are a forest over the edges, in which each active triangle joins its three: two triangles hang together where
@@ -112,12 +113,25 @@ static void measure_elastic(struct sim *sim, struct sim_measures *m)
             m->elastic_energy += membrane_elastic(sim, b);
 }
 
+static void measure_tears(struct sim *sim, struct sim_measures *m)
+{
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++) {
+        m->hole_area += gas_look(sim, b).hole_area;
+        if (!b->fracture)
+            continue;
+        m->torn_length += b->topology->now.torn;
+        for (uint32_t i = 0; i < b->fracture->now.tips; i++)
+            m->crack_tips += b->fracture->tips[i].alive;
+    }
+}
+
 struct sim_measures sim_measure(struct sim *sim)
 {
     struct sim_measures m = {0};
     uint32_t count = 0;
     measure_skin(sim, &m);
     measure_elastic(sim, &m);
+    measure_tears(sim, &m);
     for (size_t i = 0; i < sim->balloon_count; i++)
         count += measure_shape(sim, &sim->balloons[i], &m);
     if (count > 0)

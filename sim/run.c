@@ -165,9 +165,11 @@ static void print_summary(struct run *run)
 {
     struct sim *sim = run->sim;
     const struct sim_measures m = sim_measure(sim);
+    uint32_t edges = 0;
+    for (size_t i = 0; i < sim->balloon_count; i++)
+        edges += sim->balloons[i].edge_end - sim->balloons[i].edge_begin;
     printf("%g s in %" PRIu64 " steps: %u of %u edges and %u of %u triangles are left, in %u pieces; ",
-           sim->time, sim->steps, m.edges_active, sim->edge_count, m.triangles_active, sim->triangle_count,
-           m.pieces);
+           sim->time, sim->steps, m.edges_active, edges, m.triangles_active, sim->triangle_count, m.pieces);
     if (run->first_break < 0)
         printf("nothing broke\n");
     else

@@ -414,7 +414,10 @@ struct sim_measures {
     double area;           /* of the active triangles */
     double largest_piece_area;
     uint32_t edges_active, triangles_active;
-    uint32_t pieces; /* of active triangles, joined where they share an edge */
+    uint32_t pieces;     /* of active triangles, joined where they share an edge */
+    uint32_t crack_tips; /* that may still run */
+    double torn_length;  /* of all cuts, at rest */
+    double hole_area;    /* of what holds gas */
 };
 struct sim_measures sim_measure(struct sim *sim);
 

@@ -336,13 +336,14 @@ static uint32_t double_edge(struct sim *sim, struct sim_balloon *b, uint32_t edg
 
 bool topology_can_cut(struct sim *sim, struct sim_balloon *b)
 {
-    (void)sim;
     struct topology *top = b->topology;
     enum { FANS = 128 }; /* more triangles than two ends have */
     const bool room = b->point_room - b->point_end >= 2 && b->edge_room - b->edge_end >= 1 &&
                       top->tail->edge_in_room - top->tail->edge_in_count >= FANS &&
                       top->tail->triangle_in_room - top->tail->triangle_in_count >= FANS;
-    top->now.refused += !room;
+    if (!room && top->now.refused++ == 0)
+        sim_tell(sim, b, "fracture",
+                 "has used up its reserve: cracks stop; give fracture.reserve more radii");
     return room;
 }
 
@@ -368,6 +369,7 @@ void topology_cut(struct sim *sim, struct sim_balloon *b, uint32_t triangle, int
             split(sim, b, (struct fan){other, corner_of(sim, other, point)}, end == 1, from);
     }
     sim->changed = true;
+    sim->broken++;
 }
 
 uint32_t topology_piece(const struct sim *sim, const struct sim_balloon *b, uint32_t triangle, int side,
