@@ -93,24 +93,36 @@ static bool read_rows(struct reading *reading, const char *rows, size_t bytes)
     return true;
 }
 
+static struct plot_series curve(const struct table *table, const char *name, size_t column)
+{
+    return (struct plot_series){.name = name,
+                                .style = PLOT_LINE,
+                                .x = table->values[TIME],
+                                .y = table->values[column],
+                                .count = table->rows};
+}
+
+static struct plot_panel panel(const char *title, const char *y_label, const struct plot_series *series,
+                               size_t count)
+{
+    return (struct plot_panel){
+        .title = title, .x_label = "time", .y_label = y_label, .series = series, .series_count = count};
+}
+
 static enum status draw(const struct table *table, const char *title, const char *path, struct error *err)
 {
-    const double *time = table->values[TIME];
     bool gas = false;
     for (size_t i = 0; i < table->rows; i++)
         gas = gas || table->values[GAS][i] != 0;
-    const struct plot_series pressure = {NULL, PLOT_LINE, time, table->values[PRESSURE], NULL, table->rows},
-                             radius = {NULL, PLOT_LINE, time, table->values[RADIUS], NULL, table->rows},
-                             pieces = {NULL, PLOT_LINE, time, table->values[PIECES], NULL, table->rows};
-    const struct plot_series energy[] = {
-        {"kinetic", PLOT_LINE, time, table->values[KINETIC], NULL, table->rows},
-        {"elastic", PLOT_LINE, time, table->values[ELASTIC], NULL, table->rows},
-        {"gas", PLOT_LINE, time, table->values[GAS], NULL, table->rows}};
-    const struct plot_panel panels[] = {{"Pressure", "time", "gauge pressure", false, false, &pressure, 1},
-                                        {"Radius", "time", "mean radius", false, false, &radius, 1},
-                                        {"Energy", "time", "energy", false, false, energy, gas ? 3 : 2},
-                                        {"Pieces", "time", "pieces", false, false, &pieces, 1}};
-    return plot_save(&(struct plot){title, panels, 4, 2}, path, err);
+    const struct plot_series pressure = curve(table, NULL, PRESSURE), radius = curve(table, NULL, RADIUS),
+                             pieces = curve(table, NULL, PIECES);
+    const struct plot_series energy[] = {curve(table, "kinetic", KINETIC), curve(table, "elastic", ELASTIC),
+                                         curve(table, "gas", GAS)};
+    const struct plot_panel panels[] = {
+        panel("Pressure", "gauge pressure", &pressure, 1), panel("Radius", "mean radius", &radius, 1),
+        panel("Energy", "energy", energy, gas ? 3 : 2), panel("Pieces", "pieces", &pieces, 1)};
+    return plot_save(&(struct plot){.title = title, .panels = panels, .panel_count = 4, .columns = 2}, path,
+                     err);
 }
 
 enum status log_plot_save(const char *rows, size_t bytes, const char *title, const char *path,
