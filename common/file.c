@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <pthread.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -199,6 +200,20 @@ bool file_same(const char *a, const char *b)
 {
     struct stat one, other;
     return !stat(a, &one) && !stat(b, &other) && one.st_dev == other.st_dev && one.st_ino == other.st_ino;
+}
+
+bool file_program_exists(const char *program)
+{
+    char path[4096];
+    const char *folders = getenv("PATH");
+    for (const char *folder = folders ? folders : "/usr/bin:/bin"; *folder;) {
+        int length = (int)strcspn(folder, ":");
+        int used = snprintf(path, sizeof path, "%.*s/%s", length, folder, program);
+        if (used > 0 && (size_t)used < sizeof path && !access(path, X_OK))
+            return true;
+        folder += length + (folder[length] == ':');
+    }
+    return false;
 }
 
 bool file_has_extension(const char *path, const char *extension)

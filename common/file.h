@@ -53,6 +53,9 @@ enum status file_make_folder(const char *path, struct error *err);
 /* True when both names lead to the same existing file. */
 bool file_same(const char *a, const char *b);
 
+/* True when a folder of PATH has a program of that name. */
+bool file_program_exists(const char *program);
+
 /* True when path ends in ".EXTENSION", upper or lower case. */
 bool file_has_extension(const char *path, const char *extension);
 

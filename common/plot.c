@@ -18,25 +18,11 @@ bool plot_is_file_name(const char *path)
     return file_has_extension(path, "png") || file_has_extension(path, "svg");
 }
 
-static bool is_installed(const char *program)
-{
-    char path[4096];
-    const char *folders = getenv("PATH");
-    for (const char *folder = folders ? folders : "/usr/bin:/bin"; *folder;) {
-        int length = (int)strcspn(folder, ":");
-        int used = snprintf(path, sizeof path, "%.*s/%s", length, folder, program);
-        if (used > 0 && (size_t)used < sizeof path && !access(path, X_OK))
-            return true;
-        folder += length + (folder[length] == ':');
-    }
-    return false;
-}
-
 enum status plot_check(const char *path, struct error *err)
 {
     if (!plot_is_file_name(path))
         return error_set(err, STATUS_USAGE, "%s: a plot's name must end in .png or .svg", path);
-    if (!is_installed("gnuplot"))
+    if (!file_program_exists("gnuplot"))
         return error_set(err, STATUS_RESOURCE,
                          "%s: the program gnuplot is needed for plots and is not installed; on Debian: "
                          "apt install gnuplot-nox",

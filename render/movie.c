@@ -57,20 +57,6 @@ static const struct kind *kind_of(const char *path)
     return NULL;
 }
 
-static bool is_installed(const char *program)
-{
-    char path[4096];
-    const char *folders = getenv("PATH");
-    for (const char *folder = folders ? folders : "/usr/bin:/bin"; *folder;) {
-        int length = (int)strcspn(folder, ":");
-        int used = snprintf(path, sizeof path, "%.*s/%s", length, folder, program);
-        if (used > 0 && (size_t)used < sizeof path && !access(path, X_OK))
-            return true;
-        folder += length + (folder[length] == ':');
-    }
-    return false;
-}
-
 enum status movie_check(const char *path, struct error *err)
 {
     struct stat info;
@@ -78,7 +64,7 @@ enum status movie_check(const char *path, struct error *err)
         return error_set(err, STATUS_USAGE, "%s: a movie's name must end in .mp4, .webm or .gif", path);
     if (!stat(path, &info) && S_ISDIR(info.st_mode))
         return error_set(err, STATUS_FILE, "%s: is a folder; give the name of a file in it", path);
-    if (!is_installed("ffmpeg"))
+    if (!file_program_exists("ffmpeg"))
         return error_set(err, STATUS_RESOURCE,
                          "%s: the program ffmpeg is needed for movies and is not installed; on Debian: "
                          "apt install ffmpeg",
