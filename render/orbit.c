@@ -112,3 +112,34 @@ bool orbit_ray(const struct render_view *view, double x, double y, double origin
     }
     return true;
 }
+
+bool orbit_key(struct orbit *orbit, int key, bool other)
+{
+    switch (key) {
+    case '1':
+        orbit_look(orbit, other ? ORBIT_BACK : ORBIT_FRONT);
+        return true;
+    case '3':
+        orbit_look(orbit, other ? ORBIT_LEFT : ORBIT_RIGHT);
+        return true;
+    case '7':
+        orbit_look(orbit, other ? ORBIT_BOTTOM : ORBIT_TOP);
+        return true;
+    default:
+        return false;
+    }
+}
+
+void orbit_change_stereo(struct orbit *orbit, struct render_view *view)
+{
+    static const enum render_stereo next[] = {
+        [RENDER_MONO] = RENDER_PARALLEL, [RENDER_PARALLEL] = RENDER_CROSSED, [RENDER_CROSSED] = RENDER_MONO};
+    const double narrower = fmax(1, 2.0 * view->height / view->width);
+    const enum render_stereo before = view->stereo;
+    const bool known = before <= RENDER_CROSSED; /* any other has the whole picture for each eye */
+    view->stereo = known ? next[before] : RENDER_MONO;
+    if (before == RENDER_MONO)
+        orbit->distance *= narrower;
+    else if (known && view->stereo == RENDER_MONO)
+        orbit->distance /= narrower;
+}

@@ -36,6 +36,13 @@ void orbit_zoom(struct orbit *orbit, double steps);
 /* From a standard side, at the same target and distance. */
 void orbit_look(struct orbit *orbit, enum orbit_side side);
 
+/* The keys for that, the same in every window: 1 front, 3 right, 7 top; `other`: the side across. False for any other key. */
+bool orbit_key(struct orbit *orbit, int key, bool other);
+
+/* From one eye to two side by side, crossed, and back to one; with half the picture for each eye it goes as much further away as
+ * the thing needs to stay whole. */
+void orbit_change_stereo(struct orbit *orbit, struct render_view *view);
+
 /* Takes the box lower .. upper into the middle of the picture, as large as fits from any side: its enclosing
  * ball touches the picture's nearer borders. An empty or infinite box changes nothing. */
 void orbit_frame(struct orbit *orbit, const struct render_view *view, const double lower[3],

@@ -2,7 +2,6 @@
 #include "sculpt/window_app.h"
 
 #include <ctype.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -94,11 +93,6 @@ static void toggle_inflation(struct app *app)
     app_schedule(app);
 }
 
-static void look(struct app *app, enum orbit_side side, enum orbit_side other, int modifiers)
-{
-    orbit_look(&app->orbit, modifiers & WINDOW_CTRL ? other : side);
-}
-
 static void control_key(struct app *app, int key, int modifiers)
 {
     struct error err = {0};
@@ -180,32 +174,11 @@ static bool brush_key(struct session *session, int key)
     }
 }
 
-/* Each eye has half of the width, and sees from as much further away as that is narrower than high. */
-static void change_stereo(struct app *app)
-{
-    static const enum render_stereo next[] = {
-        [RENDER_MONO] = RENDER_PARALLEL, [RENDER_PARALLEL] = RENDER_CROSSED, [RENDER_CROSSED] = RENDER_MONO};
-    const double narrower = fmax(1, 2.0 * app->view.height / app->view.width);
-    const enum render_stereo before = app->view.stereo;
-    app->view.stereo = next[before];
-    if (before == RENDER_MONO)
-        app->orbit.distance *= narrower;
-    else if (app->view.stereo == RENDER_MONO)
-        app->orbit.distance /= narrower;
-}
-
 static void view_key(struct app *app, int key, int modifiers)
 {
+    if (orbit_key(&app->orbit, key, modifiers & WINDOW_CTRL))
+        return;
     switch (key) {
-    case '1':
-        look(app, ORBIT_FRONT, ORBIT_BACK, modifiers);
-        break;
-    case '3':
-        look(app, ORBIT_RIGHT, ORBIT_LEFT, modifiers);
-        break;
-    case '7':
-        look(app, ORBIT_TOP, ORBIT_BOTTOM, modifiers);
-        break;
     case WINDOW_HOME:
         app_see_all(app);
         break;
@@ -217,7 +190,7 @@ static void view_key(struct app *app, int key, int modifiers)
         app_forget_faces(app);
         break;
     case 'v':
-        change_stereo(app);
+        orbit_change_stereo(&app->orbit, &app->view);
         break;
     case 'p':
         toggle_balloon(app);

@@ -138,20 +138,6 @@ void app_see_all(struct app *app)
     orbit_frame(&app->orbit, &app->view, low, high);
 }
 
-/* Each eye has half of the width, and sees from as much further away as that is narrower than high. */
-void app_change_stereo(struct app *app)
-{
-    static const enum render_stereo next[] = {
-        [RENDER_MONO] = RENDER_PARALLEL, [RENDER_PARALLEL] = RENDER_CROSSED, [RENDER_CROSSED] = RENDER_MONO};
-    const double narrower = fmax(1, 2.0 * app->view.height / app->view.width);
-    const enum render_stereo before = app->view.stereo;
-    app->view.stereo = next[before];
-    if (before == RENDER_MONO)
-        app->orbit.distance *= narrower;
-    else if (app->view.stereo == RENDER_MONO)
-        app->orbit.distance /= narrower;
-}
-
 /* What is under a place of the window. */
 static bool find(const struct app *app, int x, int y, struct hand_hit *hit)
 {

@@ -95,7 +95,6 @@ void app_restart(struct app *app);
 
 /* All that is left of the skin in the middle of the picture. */
 void app_see_all(struct app *app);
-void app_change_stereo(struct app *app);
 
 /* The picture as it is drawn and aimed at: stereo needs an even width. */
 struct render_view app_drawn_view(const struct app *app);

@@ -21,11 +21,6 @@ const char app_help[] = "left       prick, drag: pull     middle, alt+left  turn
 /* A key turns a dial by this part of its slider. */
 static const double key_part = 0.02;
 
-static void look(struct app *app, enum orbit_side side, enum orbit_side other, int modifiers)
-{
-    orbit_look(&app->orbit, modifiers & WINDOW_CTRL ? other : side);
-}
-
 static bool dial_key(struct app *app, int key)
 {
     static const struct {
@@ -84,22 +79,15 @@ static bool time_key(struct app *app, int key)
 
 static void view_key(struct app *app, int key, int modifiers)
 {
+    if (orbit_key(&app->orbit, key, modifiers & WINDOW_CTRL))
+        return;
     switch (key) {
-    case '1':
-        look(app, ORBIT_FRONT, ORBIT_BACK, modifiers);
-        break;
-    case '3':
-        look(app, ORBIT_RIGHT, ORBIT_LEFT, modifiers);
-        break;
-    case '7':
-        look(app, ORBIT_TOP, ORBIT_BOTTOM, modifiers);
-        break;
     case WINDOW_HOME:
     case 'f':
         app_see_all(app);
         break;
     case 'v':
-        app_change_stereo(app);
+        orbit_change_stereo(&app->orbit, &app->view);
         break;
     case 's':
         app->view.style = app->view.style == RENDER_LATEX ? RENDER_PAPER : RENDER_LATEX;

@@ -127,6 +127,36 @@ static void test_in_stereo_the_ray_starts_at_the_eye_that_owns_the_pixel(void **
     }
 }
 
+static void test_the_stereo_key_leads_from_every_layout_back_to_one_eye(void **state)
+{
+    (void)state;
+    for (int layout = RENDER_MONO; layout <= RENDER_CROSSED; layout++) {
+        struct orbit orbit = plain_orbit();
+        struct render_view view = {.width = 100, .height = 100, .stereo = (enum render_stereo)layout};
+        for (int presses = 0; presses < 3; presses++)
+            orbit_change_stereo(&orbit, &view);
+        assert_int_equal(view.stereo, layout);
+        assert_near(orbit.distance, 2, tolerance);
+    }
+    struct orbit orbit = plain_orbit();
+    struct render_view view = {.width = 100, .height = 100, .stereo = RENDER_RED_CYAN}; /* a scene's own */
+    orbit_change_stereo(&orbit, &view);
+    assert_int_equal(view.stereo, RENDER_MONO);
+    assert_near(orbit.distance, 2, tolerance); /* each eye had the whole picture */
+    orbit_change_stereo(&orbit, &view);
+    assert_near(orbit.distance, 4, tolerance); /* half a picture for each eye: from twice as far */
+}
+
+static void test_number_keys_look_from_the_sides(void **state)
+{
+    (void)state;
+    struct orbit orbit = plain_orbit();
+    assert_true(orbit_key(&orbit, '3', true));
+    struct render_view view = view_from(&orbit, 100, 100);
+    assert_vector(view.camera.eye, -2, 0, 0);
+    assert_false(orbit_key(&orbit, '2', false));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -136,6 +166,8 @@ int main(void)
         cmocka_unit_test(test_zoom_steps_are_tenths_and_undo_each_other),
         cmocka_unit_test(test_framing_puts_the_enclosing_ball_into_the_narrower_side),
         cmocka_unit_test(test_a_ray_goes_through_its_pixel),
+        cmocka_unit_test(test_the_stereo_key_leads_from_every_layout_back_to_one_eye),
+        cmocka_unit_test(test_number_keys_look_from_the_sides),
         cmocka_unit_test(test_in_stereo_the_ray_starts_at_the_eye_that_owns_the_pixel),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
