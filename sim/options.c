@@ -79,6 +79,22 @@ static const char *output_of(const struct options *o)
     return NULL;
 }
 
+/* What only all of them together can tell. */
+static void finish(struct options *o, struct argp_state *state)
+{
+    if (!o->scene && !o->help_scene)
+        argp_error(state, "give a scene (.cfg) or a mesh (.ply, .stl, .obj)");
+    if (o->estimate && o->resume)
+        argp_error(state, "--estimate measures a run from its start: leave --resume out");
+    if (o->window && output_of(o))
+        argp_error(state, "%s runs to the end without a window: leave one of the two out", output_of(o));
+    o->window = !output_of(o) && (o->window || (!o->log && !o->estimate));
+    if (o->checkpoint_every >= 0 && !o->checkpoint)
+        argp_error(state, "--checkpoint-every: give --checkpoint FILE too");
+    if (o->checkpoint_every < 0)
+        o->checkpoint_every = 60;
+}
+
 static error_t parse_option(int key, char *argument, struct argp_state *state)
 {
     struct options *o = state->input;
@@ -150,17 +166,7 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         o->scene = argument;
         break;
     case ARGP_KEY_END:
-        if (!o->scene && !o->help_scene)
-            argp_error(state, "give a scene (.cfg) or a mesh (.ply, .stl, .obj)");
-        if (o->estimate && o->resume)
-            argp_error(state, "--estimate measures a run from its start: leave --resume out");
-        if (o->window && output_of(o))
-            argp_error(state, "%s runs to the end without a window: leave one of the two out", output_of(o));
-        o->window = !output_of(o) && (o->window || (!o->log && !o->estimate));
-        if (o->checkpoint_every >= 0 && !o->checkpoint)
-            argp_error(state, "--checkpoint-every: give --checkpoint FILE too");
-        if (o->checkpoint_every < 0)
-            o->checkpoint_every = 60;
+        finish(o, state);
         break;
     default:
         return ARGP_ERR_UNKNOWN;

@@ -17,6 +17,9 @@
 #include "common/mesh.h"
 #include "common/scene.h"
 #include "common/status.h"
+#include "sim/effect.h"
+#include "sim/integrators.h"
+#include "sim/parts.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -26,7 +29,6 @@ struct sim_jacobian;
 struct sim_kernels;
 struct guard;
 struct hand;
-struct guard_rows;
 struct gas;
 struct pins;
 struct string;
@@ -95,118 +97,6 @@ struct sim_news {
     size_t balloon;
 };
 enum { SIM_NEWS_MAX = 16 };
-
-/* A share of one balloon's points: whoever works on it writes to these alone, and adds up what acts on a point in the order
- * of edges and triangles, so that sums are equal to the bit however many parts there are. */
-struct sim_part {
-    struct sim_balloon *balloon;
-    uint32_t point_begin, point_end;
-    uint32_t edge_begin, edge_end;         /* the edges whose lower point is here */
-    uint32_t triangle_begin, triangle_end; /* the triangles whose lowest point is here */
-    uint32_t *edge_in, edge_in_count; /* edges of lower parts that end here, in order, new ones before them */
-    uint32_t *triangle_in, triangle_in_count; /* owned */
-    uint32_t *edge_in_own;                    /* what edge_in lies in; owned */
-    uint32_t edge_in_new, edge_in_room, triangle_in_room;
-    struct sim_chunk *chunks; /* [chunk_count] owned */
-    uint32_t chunk_count;
-};
-
-/* A stretch of a part that stays in a core's cache while all its forces are worked out; after it the forces on its points
- * are complete, since edges and triangles stand in the order of their lowest points. */
-struct sim_chunk {
-    uint32_t point_begin, point_end;
-    uint32_t clear_begin, clear_end;       /* points that are touched here for the first time */
-    uint32_t edge_begin, edge_end;         /* whose lower point is here */
-    uint32_t edge_inner_end;               /* up to this one all their points are the part's */
-    uint32_t triangle_begin, triangle_end; /* likewise */
-    uint32_t triangle_inner_end;
-};
-
-/* A method that moves the points over one step of dt (integrators.c). It starts from sim->position, velocity and scalar and
- * leaves the new ones there; it asks sim_forces() as often as its order needs, at trial states if need be; nothing breaks
- * meanwhile. */
-struct integrator {
-    const char *name;
-    int order;       /* of the error in position at a fixed time */
-    unsigned flags;  /* enum integrator_flags */
-    int evaluations; /* of sim_forces() a step; 0: it depends */
-    int vectors;     /* of sim->scratch that it needs */
-    /* The largest stable step: dt times the angular frequency of an undamped oscillator, and dt times the rate of a pure
-     * decay. INFINITY where any step is stable. */
-    double oscillation_limit, decay_limit;
-    enum status (*open)(struct sim *sim,
-                        struct error *err); /* makes sim->method, all zero before; NULL: nothing to make */
-    void (*close)(struct sim *sim);         /* NULL: nothing to free */
-    /* Before each step, `first` where it is the first of one of the scene's: which method acts, and in how many substeps at the
-     * least. NULL: this one, in one. */
-    void (*choose)(struct sim *sim, bool first);
-    enum status (*advance)(struct sim *sim, double dt, struct error *err);
-    /* What it remembers from step to step, as blocks; returns how many. NULL: nothing. */
-    size_t (*blocks)(struct sim *sim, struct sim_block *blocks);
-    /* Sets position, velocity and scalar to what they were `back` seconds ago, 0 to sim->taken: inside the step that was
-     * taken last, by an interpolation as good as the method. NULL: states between steps cannot be had. */
-    void (*look)(struct sim *sim, double back);
-    const char *source;
-};
-enum integrator_flags {
-    INTEGRATOR_IMPLICIT = 1,   /* solves equations at each step */
-    INTEGRATOR_SYMPLECTIC = 2, /* keeps the energy of an undamped system bounded at fixed steps */
-    INTEGRATOR_ADAPTIVE = 4,   /* chooses its own steps within dt from time.tolerance */
-};
-extern const struct integrator *const integrators[]; /* NULL-terminated */
-const struct integrator *integrator_find(const char *name);
-
-/* When an effect's hook runs. */
-enum effect_phase {
-    EFFECT_OPEN,       /* once, when the tables are complete */
-    EFFECT_FORCES,     /* adds to sim->force and sim->scalar_rate at the current state */
-    EFFECT_MOVED,      /* once the points have moved, before anything breaks: corrects how they did */
-    EFFECT_AFTER_STEP, /* at the end of each accepted step */
-    EFFECT_PHASES,
-};
-
-/* Something that a scene can call for, beyond springs and pressure (effects.c). */
-struct effect {
-    const char *name; /* of the scene's block that calls for it */
-    enum effect_phase phase;
-    /* One of them: whether a balloon's block calls for it, which makes a hook a balloon; or the scene's, which makes one hook whose
-     * balloon is the first. */
-    bool (*wanted)(const struct scene_balloon *balloon);
-    bool (*scene_wanted)(const struct scene *scene);
-    /* Makes what the effect keeps for a balloon, when the tables are complete and before any hook; frees it, also where that
-     * failed. NULL: nothing. */
-    enum status (*open)(struct sim *sim, struct sim_balloon *balloon, struct error *err);
-    void (*close)(struct sim *sim, struct sim_balloon *balloon);
-    void (*apply)(struct sim *sim, struct sim_balloon *balloon); /* NULL: nothing that a kernel does not do */
-    /* EFFECT_MOVED: corrects sim->position and velocity after a step from sim->before; says so by sim->changed. */
-    enum status (*settle)(struct sim *sim, struct error *err);
-    /* EFFECT_FORCES: at the end of each accepted step too. NULL: nothing. */
-    void (*after)(struct sim *sim, struct sim_balloon *balloon);
-    /* What it remembers from step to step beyond sim->scalar, as blocks; returns how many. NULL: nothing. */
-    size_t (*blocks)(struct sim *sim, struct sim_balloon *balloon, struct sim_block *blocks);
-    /* After a step, whether it can go on: STATUS_DIVERGED with the reason. NULL: always.
-     * For the ledger: what it holds now; and what it takes a second for good (dissipated) and brings from outside (work), at the
-     * current state, each added. NULL: nothing. */
-    enum status (*check)(struct sim *sim, struct sim_balloon *balloon, struct error *err);
-    double (*energy)(struct sim *sim, struct sim_balloon *balloon);
-    void (*power)(struct sim *sim, struct sim_balloon *balloon, double *dissipated, double *work);
-    /* EFFECT_FORCES: adds to df a K dx + b D dv (jacobian.h), the derivatives of its own forces at the current state. NULL:
-     * its forces depend on neither positions nor velocities. */
-    void (*product)(struct sim *sim, struct sim_balloon *balloon, double a, double (*dx)[4], double b,
-                    double (*dv)[4], double (*df)[4]);
-    /* EFFECT_FORCES: adds to rows (guard.h) by how much its forces on each point can change; guard_outdated() when that is no
-     * longer true. NULL: they are constant, and do no work. */
-    void (*bound)(const struct sim *sim, const struct sim_balloon *balloon, const struct guard_rows *rows);
-    bool damps; /* EFFECT_FORCES: its forces depend on velocities */
-    const char *source;
-};
-extern const struct effect *const effects[]; /* NULL-terminated */
-
-/* An effect that this scene calls for, on one balloon. */
-struct effect_hook {
-    const struct effect *effect;
-    struct sim_balloon *balloon;
-};
 
 /* The energy's accounts (ledger.h). */
 struct sim_ledger {
@@ -359,11 +249,6 @@ void *sim_table(struct sim *sim, size_t count, size_t size);
 /* Makes sim->before, if there is none: for an effect's open. Error: STATUS_NO_MEMORY. */
 enum status sim_keep_before(struct sim *sim, struct error *err);
 
-/* Runs function on every part, each on its worker, and returns when all are done. */
-void sim_each_part(struct sim *sim,
-                   void (*function)(struct sim *sim, const struct sim_part *part, void *context),
-                   void *context);
-
 /* Of an active edge its length now; of a broken one that when it broke. */
 double sim_edge_length(const struct sim *sim, uint32_t edge);
 
@@ -452,39 +337,12 @@ void sim_look_end(struct sim *sim);
  * sum k (L - 1) r u = (L - 1) sum k (x_q - x_p), which are 0 for these k in any flat mesh. 0 where the sum is negative. */
 void springs_by_cotangent(struct sim *sim, const struct sim_balloon *balloon);
 
-/* Orders edges and triangles by their points and shares out the points among the workers (parts.c). edge_place[i] becomes
- * where edge i of the mesh goes, from 0 on; triangle_place likewise. */
-void parts_order(const struct mesh *mesh, uint32_t *edge_place, uint32_t *triangle_place, uint32_t *count);
-enum status parts_open(struct sim *sim, struct error *err);
-void parts_close(struct sim *sim);
-
-/* For cuts (topology.h), none of which allocates. The part of new points reaches this far; a new edge comes into a part with
- * some of its points; all such edges go again; an edge or a triangle has got points that another part works on. */
-void parts_extend(struct sim_part *tail, uint32_t point_end, uint32_t edge_end);
-void parts_take_edge(struct sim_part *part, uint32_t edge);
-void parts_forget(struct sim *sim, const struct sim_balloon *balloon);
-void parts_loosen_edge(struct sim *sim, const struct sim_balloon *balloon, uint32_t edge);
-void parts_loosen_triangle(struct sim *sim, const struct sim_balloon *balloon, uint32_t triangle);
-
 /* Makes sim->past where the method can look into its steps (STATUS_NO_MEMORY); remembers how a step begins (look.c). */
 enum status look_open(struct sim *sim, struct error *err);
 void look_close(struct sim *sim);
 void look_remember(struct sim *sim);
 
-/* Fills sim->hooks with what the scene calls for and opens it (STATUS_NO_MEMORY, or what an effect's open says); closes it; runs
- * the hooks of one phase. */
-enum status effects_resolve(struct sim *sim, struct error *err);
-void effects_close(struct sim *sim);
-void effects_run(struct sim *sim, enum effect_phase phase);
-enum status effects_settle(struct sim *sim, struct error *err); /* EFFECT_MOVED */
-
 /* Tells it to whoever reads the news; text is static. */
 void sim_tell(struct sim *sim, const struct sim_balloon *balloon, const char *effect, const char *text);
-
-/* Of all effects together (struct effect): whether all can go on, their blocks, the energy that they hold, and their powers, which are added. */
-enum status effects_check(struct sim *sim, struct error *err);
-size_t effects_blocks(struct sim *sim, struct sim_block *blocks);
-double effects_energy(struct sim *sim);
-void effects_power(struct sim *sim, double *dissipated, double *work);
 
 #endif

@@ -1,0 +1,81 @@
+/* What a scene can call for beyond springs and pressure (effects.c). */
+#ifndef SIM_EFFECT_H
+#define SIM_EFFECT_H
+
+#include "common/scene.h"
+#include "common/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+struct sim;
+struct sim_balloon;
+struct sim_block;
+struct guard_rows;
+
+/* When an effect's hook runs. */
+enum effect_phase {
+    EFFECT_OPEN,       /* once, when the tables are complete */
+    EFFECT_FORCES,     /* adds to sim->force and sim->scalar_rate at the current state */
+    EFFECT_MOVED,      /* once the points have moved, before anything breaks: corrects how they did */
+    EFFECT_AFTER_STEP, /* at the end of each accepted step */
+    EFFECT_PHASES,
+};
+
+/* Something that a scene can call for, beyond springs and pressure (effects.c). */
+struct effect {
+    const char *name; /* of the scene's block that calls for it */
+    enum effect_phase phase;
+    /* One of them: whether a balloon's block calls for it, which makes a hook a balloon; or the scene's, which makes one hook whose
+     * balloon is the first. */
+    bool (*wanted)(const struct scene_balloon *balloon);
+    bool (*scene_wanted)(const struct scene *scene);
+    /* Makes what the effect keeps for a balloon, when the tables are complete and before any hook; frees it, also where that
+     * failed. NULL: nothing. */
+    enum status (*open)(struct sim *sim, struct sim_balloon *balloon, struct error *err);
+    void (*close)(struct sim *sim, struct sim_balloon *balloon);
+    void (*apply)(struct sim *sim, struct sim_balloon *balloon); /* NULL: nothing that a kernel does not do */
+    /* EFFECT_MOVED: corrects sim->position and velocity after a step from sim->before; says so by sim->changed. */
+    enum status (*settle)(struct sim *sim, struct error *err);
+    /* EFFECT_FORCES: at the end of each accepted step too. NULL: nothing. */
+    void (*after)(struct sim *sim, struct sim_balloon *balloon);
+    /* What it remembers from step to step beyond sim->scalar, as blocks; returns how many. NULL: nothing. */
+    size_t (*blocks)(struct sim *sim, struct sim_balloon *balloon, struct sim_block *blocks);
+    /* After a step, whether it can go on: STATUS_DIVERGED with the reason. NULL: always.
+     * For the ledger: what it holds now; and what it takes a second for good (dissipated) and brings from outside (work), at the
+     * current state, each added. NULL: nothing. */
+    enum status (*check)(struct sim *sim, struct sim_balloon *balloon, struct error *err);
+    double (*energy)(struct sim *sim, struct sim_balloon *balloon);
+    void (*power)(struct sim *sim, struct sim_balloon *balloon, double *dissipated, double *work);
+    /* EFFECT_FORCES: adds to df a K dx + b D dv (jacobian.h), the derivatives of its own forces at the current state. NULL:
+     * its forces depend on neither positions nor velocities. */
+    void (*product)(struct sim *sim, struct sim_balloon *balloon, double a, double (*dx)[4], double b,
+                    double (*dv)[4], double (*df)[4]);
+    /* EFFECT_FORCES: adds to rows (guard.h) by how much its forces on each point can change; guard_outdated() when that is no
+     * longer true. NULL: they are constant, and do no work. */
+    void (*bound)(const struct sim *sim, const struct sim_balloon *balloon, const struct guard_rows *rows);
+    bool damps; /* EFFECT_FORCES: its forces depend on velocities */
+    const char *source;
+};
+extern const struct effect *const effects[]; /* NULL-terminated */
+
+/* An effect that this scene calls for, on one balloon. */
+struct effect_hook {
+    const struct effect *effect;
+    struct sim_balloon *balloon;
+};
+
+/* Fills sim->hooks with what the scene calls for and opens it (STATUS_NO_MEMORY, or what an effect's open says); closes it; runs
+ * the hooks of one phase. */
+enum status effects_resolve(struct sim *sim, struct error *err);
+void effects_close(struct sim *sim);
+void effects_run(struct sim *sim, enum effect_phase phase);
+enum status effects_settle(struct sim *sim, struct error *err); /* EFFECT_MOVED */
+
+/* Of all effects together (struct effect): whether all can go on, their blocks, the energy that they hold, and their powers, which are added. */
+enum status effects_check(struct sim *sim, struct error *err);
+size_t effects_blocks(struct sim *sim, struct sim_block *blocks);
+double effects_energy(struct sim *sim);
+void effects_power(struct sim *sim, double *dissipated, double *work);
+
+#endif
