@@ -1,6 +1,6 @@
-#include "sim/fracture.h"
 #include "common/threads.h"
 #include "common/vec3.h"
+#include "sim/cracks.h"
 #include "sim/guard.h"
 
 #include <math.h>
@@ -72,7 +72,7 @@ static void look_share(void *context, size_t share, unsigned worker)
     }
 }
 
-void fracture_energies(struct sim *sim, struct sim_balloon *b)
+static void find_energies(struct sim *sim, struct sim_balloon *b)
 {
     struct fracture *f = b->fracture;
     if (b->membrane)
@@ -122,7 +122,9 @@ static uint32_t weakest(const struct sim *sim, const struct sim_balloon *b)
     return found;
 }
 
-void fracture_tension(const struct sim *sim, const struct sim_balloon *b, uint32_t point, double direction[3])
+/* Direction of the largest tension around a point, as it lies in the skin at rest. */
+static void tension_at(const struct sim *sim, const struct sim_balloon *b, uint32_t point,
+                       double direction[3])
 {
     /* the direction is taken back to rest by the triangle's corners, which keep their barycentric coordinates */
     struct fan fan;
@@ -158,7 +160,7 @@ static void open_at(struct sim *sim, struct sim_balloon *b, uint32_t point, doub
     double tension[3], across[3], twice[3];
     const uint32_t *p = sim->triangle_point[b->topology->triangle_at[point - b->point_begin]];
     double(*rest)[3] = b->topology->rest;
-    fracture_tension(sim, b, point, tension);
+    tension_at(sim, b, point, tension);
     vec3_triangle(rest[p[0] - b->point_begin], rest[p[1] - b->point_begin], rest[p[2] - b->point_begin],
                   twice);
     vec3_cross(twice, tension, across);
@@ -262,7 +264,7 @@ void fracture_step(struct sim *sim, struct sim_balloon *b)
     f->stamps++;
     if (sim->time >= f->now.next_look) {
         f->now.next_look = sim->time + f->look_interval;
-        fracture_energies(sim, b);
+        find_energies(sim, b);
         births(sim, b);
         snap_strands(sim, b);
     }

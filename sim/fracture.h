@@ -80,23 +80,13 @@ void fracture_rip(struct sim *sim, struct sim_balloon *balloon);
 bool fracture_is_sound(const struct sim *sim, const struct sim_balloon *balloon);
 void fracture_restored(struct sim *sim, struct sim_balloon *balloon);
 
-/* Mean direction of the largest tension around a point, as it lies in the skin at rest. */
-void fracture_tension(const struct sim *sim, const struct sim_balloon *balloon, uint32_t point,
-                      double direction[3]);
-
 /* The rule, after each step. */
 void fracture_step(struct sim *sim, struct sim_balloon *balloon);
 
-/* What fracture.c, cracks.c and effect_fracture.c share. */
-void fracture_energies(struct sim *sim, struct sim_balloon *balloon);
+/* Its second half: those tips go on that can. */
 void fracture_tips(struct sim *sim, struct sim_balloon *balloon);
-void fracture_snap(struct sim *sim, struct sim_balloon *balloon, uint32_t triangle);
-bool fracture_is_rim(const struct sim *sim, const struct sim_balloon *balloon, uint32_t point);
-/* How many triangles would fall off if the side were cut between two points of a rim (the smaller part, by count); they are
- * fracture->list. 0: the skin would still hang together. O(that number). Then, once it is cut: */
-uint32_t fracture_falls_off(struct sim *sim, struct sim_balloon *balloon, uint32_t triangle, int side);
-void fracture_let_fall(struct sim *sim, struct sim_balloon *balloon, uint32_t count);
-void fracture_tell_gas(struct sim *sim, struct sim_balloon *balloon);
+
+/* W of an equal stretch both ways. */
 double fracture_equal_energy(double stretch);
 
 #endif

@@ -1,6 +1,6 @@
 /* Pieces that fall off, and the rims of holes in what still holds the gas. */
 #include "common/vec3.h"
-#include "sim/fracture.h"
+#include "sim/cracks.h"
 
 /* Where the side's edge is in the triangle across it. */
 static int across(const struct sim *sim, const struct sim_balloon *b, uint32_t triangle, int side,
@@ -12,6 +12,55 @@ static int across(const struct sim *sim, const struct sim_balloon *b, uint32_t t
     while (sim->triangle_edge[*other][k] != edge)
         k++;
     return k;
+}
+
+/* Triangles of the piece that would fall off if the side were cut between two points of a rim, from `triangle` on and no more than
+ * `most` of them, in fracture->list; their area at rest is added up. Returns their count, or UINT32_MAX when there are more. */
+static uint32_t piece_beside(struct sim_balloon *b, uint32_t triangle, int side, uint32_t most, double *area)
+{
+    const uint32_t first = b->triangle_begin, barrier = b->topology->neighbour[triangle - first][side];
+    uint32_t *list = b->fracture->list;
+    unsigned char *seen = b->fracture->seen;
+    uint32_t count = 1, done = 0;
+    *area = 0;
+    list[0] = triangle;
+    seen[triangle - first] = 1;
+    while (done < count && count != UINT32_MAX) {
+        const uint32_t t = list[done++];
+        *area += b->topology->rest_area[t - first];
+        for (int k = 0; k < 3; k++) {
+            const uint32_t n = b->topology->neighbour[t - first][k];
+            if (n == MESH_NONE || seen[n - first] || (t == triangle && n == barrier))
+                continue;
+            if (count == most) {
+                done = count;
+                count = UINT32_MAX;
+                break;
+            }
+            seen[n - first] = 1;
+            list[count++] = n;
+        }
+    }
+    const uint32_t marked = count == UINT32_MAX ? most : count;
+    for (uint32_t i = 0; i < marked; i++)
+        seen[list[i] - first] = 0;
+    return count;
+}
+
+bool fracture_leaves_pieces(struct sim *sim, struct sim_balloon *b, uint32_t triangle, int side)
+{
+    const struct fracture *f = b->fracture;
+    uint32_t other;
+    const int other_side = across(sim, b, triangle, side, &other);
+    const uint32_t at[2] = {triangle, other};
+    const int sides[2] = {side, other_side};
+    for (int i = 0; i < 2; i++) {
+        double area;
+        const uint32_t count = piece_beside(b, at[i], sides[i], f->list_room, &area);
+        if (count != UINT32_MAX && (count < 4 || area < b->scene->fracture.smallest * b->topology->area))
+            return false;
+    }
+    return true;
 }
 
 uint32_t fracture_falls_off(struct sim *sim, struct sim_balloon *b, uint32_t triangle, int side)
@@ -27,8 +76,7 @@ uint32_t fracture_falls_off(struct sim *sim, struct sim_balloon *b, uint32_t tri
     for (uint32_t most = 64;; most = most < triangles / 4 ? 4 * most : triangles)
         for (int i = 0; i < 2; i++) {
             double area;
-            const uint32_t count = topology_piece(sim, b, ways[i].triangle, ways[i].side, most, f->list,
-                                                  f->seen, &area);
+            const uint32_t count = piece_beside(b, ways[i].triangle, ways[i].side, most, &area);
             if (count == UINT32_MAX)
                 continue;
             for (uint32_t k = 0; k < count; k++)

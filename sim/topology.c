@@ -371,34 +371,3 @@ void topology_cut(struct sim *sim, struct sim_balloon *b, uint32_t triangle, int
     sim->changed = true;
     sim->broken++;
 }
-
-uint32_t topology_piece(const struct sim *sim, const struct sim_balloon *b, uint32_t triangle, int side,
-                        uint32_t most, uint32_t *list, unsigned char *seen, double *area)
-{
-    (void)sim;
-    const uint32_t first = b->triangle_begin, barrier = neighbours(b, triangle)[side];
-    uint32_t count = 1, done = 0;
-    *area = 0;
-    list[0] = triangle;
-    seen[triangle - first] = 1;
-    while (done < count && count != UINT32_MAX) {
-        const uint32_t t = list[done++];
-        *area += b->topology->rest_area[t - first];
-        for (int k = 0; k < 3; k++) {
-            const uint32_t n = neighbours(b, t)[k];
-            if (n == MESH_NONE || seen[n - first] || (t == triangle && n == barrier))
-                continue;
-            if (count == most) {
-                done = count;
-                count = UINT32_MAX;
-                break;
-            }
-            seen[n - first] = 1;
-            list[count++] = n;
-        }
-    }
-    const uint32_t marked = count == UINT32_MAX ? most : count;
-    for (uint32_t i = 0; i < marked; i++)
-        seen[list[i] - first] = 0;
-    return count;
-}

@@ -80,9 +80,4 @@ bool topology_can_cut(struct sim *sim, struct sim_balloon *balloon);
 /* Cuts the edge across `side` of a triangle, which must not be a rim. Does not allocate; takes the time of the two ends' triangles. */
 void topology_cut(struct sim *sim, struct sim_balloon *balloon, uint32_t triangle, int side);
 
-/* Triangles of the piece that would fall off if the side were cut between two points of a rim, from `triangle` on and no more than `most`
- * of them; their area at rest is added up. Returns their count, or UINT32_MAX when there are more. list has room for `most`. */
-uint32_t topology_piece(const struct sim *sim, const struct sim_balloon *balloon, uint32_t triangle, int side,
-                        uint32_t most, uint32_t *list, unsigned char *seen, double *area);
-
 #endif
