@@ -189,13 +189,15 @@ static inline __attribute__((always_inline)) struct response wrinkled_response(c
                 q2 = 1 / root;
     const lanes gap = (q - q2) * (q - q2);
     const struct response w = law_response(law, kind, (struct stretched){q + q2, root, gap}, asked);
-    const lanes i = 1 / lanes_max(r, lanes_all(1e-100)), first = w.a + q2 * w.d;
+    /* What is slack has r > q - q2 > 0 or q < 1, but rounding has not, and over an r of 0 it would not be small. */
+    const lane_mask taut = (lane_mask)(true_q > 1);
+    const lanes i = 1 / lanes_max(lanes_max(r, q - q2), lanes_all(1e-100));
+    const lanes first = lanes_select(taut, w.a + q2 * w.d, lanes_all(0));
     struct response out = {.energy = w.energy, .a = first * true_q * i, .d = -first * i};
     if (asked & RESPONSE_SECOND) {
         const lanes by_q = w.aa + q2 * (2 * w.ad + q2 * w.dd);
         const lanes by_q2 = w.aa + (q + q2) * w.ad + root * w.dd + w.d;
-        const lanes second = lanes_select((lane_mask)(true_q > 1), by_q - .5 * q2 * (1 / q) * by_q2,
-                                          lanes_all(0));
+        const lanes second = lanes_select(taut, by_q - .5 * q2 * (1 / q) * by_q2, lanes_all(0));
         const lanes i2 = i * i, turning = first * i2 * i;
         out.aa = second * true_q * true_q * i2 - 2 * turning * s.d;
         out.ad = -second * true_q * i2 + turning * s.a;
