@@ -1,4 +1,5 @@
 /* What the log tells about a state. */
+#include "sim/measure.h"
 #include "common/vec3.h"
 #include "sim/fracture.h"
 #include "sim/membrane.h"
@@ -19,7 +20,35 @@ static void join(uint32_t *parent, uint32_t a, uint32_t b)
     parent[a < b ? b : a] = a < b ? a : b;
 }
 
-static double triangle_area(const struct sim *sim, uint32_t t)
+uint32_t sim_piece_of(struct sim *sim, uint32_t t)
+{
+    return root_of(sim->piece, sim->triangle_edge[t][0]);
+}
+
+void sim_find_pieces(struct sim *sim)
+{
+    for (uint32_t e = 0; e < sim->edge_count; e++)
+        sim->piece[e] = e;
+    for (uint32_t t = 0; t < sim->triangle_count; t++)
+        if (sim->triangle_active[t]) {
+            join(sim->piece, sim->triangle_edge[t][0], sim->triangle_edge[t][1]);
+            join(sim->piece, sim->triangle_edge[t][0], sim->triangle_edge[t][2]);
+        }
+}
+
+/* By Heron's formula in Kahan's stable form ("Miscalculating area and angles of a needle-like triangle", 2014): a >= b >= c. */
+double sim_rest_area(const struct sim *sim, uint32_t t)
+{
+    const uint32_t *edge = sim->triangle_edge[t];
+    double a = sim->rest_length[edge[0]], b = sim->rest_length[edge[1]], c = sim->rest_length[edge[2]];
+    const double most = fmax(a, fmax(b, c)), least = fmin(a, fmin(b, c));
+    b = fmax(fmin(a, b), fmin(fmax(a, b), c));
+    a = most;
+    c = least;
+    return sqrt(fmax((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)), 0)) / 4;
+}
+
+double sim_area(const struct sim *sim, uint32_t t)
 {
     const uint32_t *p = sim->triangle_point[t];
     double twice[3];
@@ -29,20 +58,14 @@ static double triangle_area(const struct sim *sim, uint32_t t)
 
 static void measure_skin(struct sim *sim, struct sim_measures *m)
 {
-    for (uint32_t e = 0; e < sim->edge_count; e++) {
-        sim->piece[e] = e;
+    sim_find_pieces(sim);
+    for (uint32_t e = 0; e < sim->edge_count; e++)
         sim->piece_area[e] = -1; /* no triangle has been counted here */
-    }
-    for (uint32_t t = 0; t < sim->triangle_count; t++)
-        if (sim->triangle_active[t]) {
-            join(sim->piece, sim->triangle_edge[t][0], sim->triangle_edge[t][1]);
-            join(sim->piece, sim->triangle_edge[t][0], sim->triangle_edge[t][2]);
-        }
     for (uint32_t t = 0; t < sim->triangle_count; t++) {
         if (!sim->triangle_active[t])
             continue;
-        double *piece_area = &sim->piece_area[root_of(sim->piece, sim->triangle_edge[t][0])];
-        const double area = triangle_area(sim, t);
+        double *piece_area = &sim->piece_area[sim_piece_of(sim, t)];
+        const double area = sim_area(sim, t);
         m->pieces += *piece_area < 0;
         *piece_area = fmax(*piece_area, 0) + area;
         m->largest_piece_area = fmax(m->largest_piece_area, *piece_area);

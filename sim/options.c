@@ -25,7 +25,8 @@ enum {
     OPTION_EXPLAIN,
     OPTION_HELP_SCENE,
     OPTION_WINDOW,
-    OPTION_PLOT
+    OPTION_PLOT,
+    OPTION_PIECES
 };
 
 static const struct argp_option option_table[] = {
@@ -45,6 +46,8 @@ static const struct argp_option option_table[] = {
     {"checkpoint-every", OPTION_CHECKPOINT_EVERY, "SECONDS", 0, "How often (default: 60)", 1},
     {"resume", OPTION_RESUME, "FILE", 0, "Go on with the run that is kept in this file", 1},
     {"output", 'o', "FILE", 0, "Write the skin as it is at the end (.ply, .stl or .obj)", 1},
+    {"pieces", OPTION_PIECES, "FILE.tsv", 0,
+     "Write a table of the pieces at the end: area, mass, centre, velocity, spin", 1},
     {"hash", OPTION_HASH, 0, 0, "Print a 64-bit hash of the final state as the last line", 1},
     {"window", OPTION_WINDOW, 0, 0,
      "Open the window also beside --log and --estimate; without any output it opens anyway", 1},
@@ -64,15 +67,11 @@ static const char *output_of(const struct options *o)
     const struct {
         const char *name;
         bool wanted;
-    } outputs[] = {{"--frames", o->frames},
-                   {"--movie", o->movie},
-                   {"--contact-sheet", o->sheet},
-                   {"--checkpoint", o->checkpoint},
-                   {"--resume", o->resume},
-                   {"-o", o->mesh},
-                   {"--hash", o->hash},
-                   {"--plot", o->plot},
-                   {"--accuracy-cost", o->accuracy_cost}};
+    } outputs[] = {{"--frames", o->frames},       {"--movie", o->movie},
+                   {"--contact-sheet", o->sheet}, {"--checkpoint", o->checkpoint},
+                   {"--resume", o->resume},       {"-o", o->mesh},
+                   {"--pieces", o->pieces},       {"--hash", o->hash},
+                   {"--plot", o->plot},           {"--accuracy-cost", o->accuracy_cost}};
     for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; i++)
         if (outputs[i].wanted)
             return outputs[i].name;
@@ -153,6 +152,9 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         break;
     case OPTION_PLOT:
         o->plot = argument;
+        break;
+    case OPTION_PIECES:
+        o->pieces = argument;
         break;
     case OPTION_WINDOW:
         o->window = true;

@@ -9,7 +9,7 @@ struct options {
     const char *scene;
     const char **set; /* [set_count] KEY=VALUE, in order */
     size_t set_count;
-    const char *frames, *movie, *sheet, *log, *plot, *mesh;
+    const char *frames, *movie, *sheet, *log, *plot, *mesh, *pieces;
     const char *checkpoint, *resume;
     double checkpoint_every;   /* s */
     const char *accuracy_cost; /* FILE.tsv, .png or .svg */

@@ -7,6 +7,7 @@
 #include "sim/interrupt.h"
 #include "sim/ledger.h"
 #include "sim/outputs.h"
+#include "sim/piece_table.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -132,6 +133,8 @@ static enum status begin(struct run *run, struct error *err)
 {
     const struct options *options = run->options;
     enum status status = probe(options->checkpoint, err);
+    if (!status)
+        status = probe(options->pieces, err);
     outputs_find_rest(&run->outputs, run->sim);
     if (!status && options->plot)
         status = plot_check(options->plot, err);
@@ -158,6 +161,16 @@ static enum status save_skin(const struct sim *sim, const char *path, struct err
     if (!status)
         status = mesh_save(&mesh, path, err);
     mesh_clear(&mesh);
+    return status;
+}
+
+static enum status save_pieces(struct sim *sim, const char *path, struct error *err)
+{
+    struct piece_table table = {0};
+    enum status status = piece_table_make(sim, &table, err);
+    if (!status)
+        status = piece_table_save(&table, path, err);
+    piece_table_clear(&table);
     return status;
 }
 
@@ -190,6 +203,8 @@ enum status run(const struct options *options, struct sim *sim, struct estimate 
     status = outputs_close(&run.outputs, status, err);
     if (!status && options->mesh)
         status = save_skin(sim, options->mesh, err);
+    if (!status && options->pieces)
+        status = save_pieces(sim, options->pieces, err);
     if (!status)
         print_summary(&run);
     free(run.past.rows);

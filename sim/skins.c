@@ -2,6 +2,7 @@
 
 #include "common/array.h"
 #include "common/vec3.h"
+#include "sim/measure.h"
 
 #include <stdlib.h>
 
@@ -63,24 +64,9 @@ void skins_clear(struct skins *skins)
     *skins = (struct skins){0};
 }
 
-/* Of the edges at rest, by Heron's formula in Kahan's stable form ("Miscalculating area and angles of a needle-like
- * triangle", 2014): a >= b >= c. */
-static double rest_area(const struct sim *sim, const uint32_t edge[3])
-{
-    double a = sim->rest_length[edge[0]], b = sim->rest_length[edge[1]], c = sim->rest_length[edge[2]];
-    const double most = fmax(a, fmax(b, c)), least = fmin(a, fmin(b, c));
-    b = fmax(fmin(a, b), fmin(fmax(a, b), c));
-    a = most;
-    c = least;
-    return sqrt(fmax((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)), 0)) / 4;
-}
-
 static float area_stretch(const struct sim *sim, uint32_t t)
 {
-    const uint32_t *corner = sim->triangle_point[t];
-    double twice[3];
-    vec3_triangle(sim->position[corner[0]], sim->position[corner[1]], sim->position[corner[2]], twice);
-    const double rest = rest_area(sim, sim->triangle_edge[t]), area = vec3_length(twice) / 2;
+    const double rest = sim_rest_area(sim, t), area = sim_area(sim, t);
     return rest > 0 && isfinite(area) ? (float)fmin(area / rest, 1e6) : 1;
 }
 
