@@ -59,6 +59,10 @@ struct effect {
 };
 extern const struct effect *const effects[]; /* NULL-terminated */
 
+/* Whether the scene, or a balloon of it, calls for it; how many it calls for. */
+bool effect_is_wanted(const struct effect *effect, const struct scene *scene);
+size_t effects_count(const struct scene *scene);
+
 /* An effect that this scene calls for, on one balloon. */
 struct effect_hook {
     const struct effect *effect;

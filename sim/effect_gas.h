@@ -48,6 +48,12 @@ struct gas_look {
 /* All 0 for a balloon without gas. */
 struct gas_look gas_look(struct sim *sim, const struct sim_balloon *balloon);
 
+/* By which it presses now more than the air outside: the gas's own, or what the scene gives. */
+static inline double gas_gauge_pressure(struct sim *sim, const struct sim_balloon *balloon)
+{
+    return balloon->gas ? gas_look(sim, balloon).gauge_pressure : balloon->now->pressure;
+}
+
 /* For tubes: streams `rate` of N, at `warmth` times the temperature of the air, into a balloon's gas (out of it: below 0), as rates of
  * sim->scalar. */
 void gas_stream(struct sim *sim, const struct sim_balloon *balloon, double rate, double warmth);

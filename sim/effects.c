@@ -24,6 +24,24 @@ const struct effect *const effects[] = {
     NULL,
 };
 
+bool effect_is_wanted(const struct effect *effect, const struct scene *scene)
+{
+    if (effect->scene_wanted)
+        return effect->scene_wanted(scene);
+    for (size_t i = 0; i < scene->balloon_count; i++)
+        if (effect->wanted(&scene->balloons[i]))
+            return true;
+    return false;
+}
+
+size_t effects_count(const struct scene *scene)
+{
+    size_t count = 0;
+    for (const struct effect *const *effect = effects; *effect; effect++)
+        count += effect_is_wanted(*effect, scene);
+    return count;
+}
+
 static bool is_wanted(const struct sim *sim, const struct effect *effect, const struct sim_balloon *balloon)
 {
     if (effect->scene_wanted)

@@ -71,13 +71,6 @@ enum status sim_log_open(const char *path, const struct sim_log_options *options
     return status;
 }
 
-/* Of the first balloon. */
-static double gauge_pressure(struct sim *sim)
-{
-    const struct sim_balloon *b = &sim->balloons[0];
-    return b->gas ? gas_look(sim, b).gauge_pressure : b->now->pressure;
-}
-
 void sim_log_row(struct sim_log *log, struct sim *sim, double position_error)
 {
     const struct sim_measures m = sim_measure(sim);
@@ -93,10 +86,10 @@ void sim_log_row(struct sim_log *log, struct sim *sim, double position_error)
         row, sizeof row,
         "%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%u\t%u\t%.9g\t%u\t%.9g\t%.9g\t%.3f\t%.9g\t%.9g\t%.9g\t%.9g\t"
         "%.9g\t%.3g\t%u\t%.9g\t%.9g%s\n",
-        sim->time, m.mean_radius, m.volume, gauge_pressure(sim), m.kinetic_energy, m.elastic_energy,
-        m.max_stretch, m.edges_active, m.triangles_active, m.area, m.pieces, m.largest_piece_area,
-        sim->taken > 0 ? sim->taken : sim->step, seconds, b.gas, b.dissipated, b.fracture, b.pressure_work,
-        b.user_work, b.error, m.crack_tips, m.torn_length, m.hole_area, error);
+        sim->time, m.mean_radius, m.volume, gas_gauge_pressure(sim, &sim->balloons[0]), m.kinetic_energy,
+        m.elastic_energy, m.max_stretch, m.edges_active, m.triangles_active, m.area, m.pieces,
+        m.largest_piece_area, sim->taken > 0 ? sim->taken : sim->step, seconds, b.gas, b.dissipated,
+        b.fracture, b.pressure_work, b.user_work, b.error, m.crack_tips, m.torn_length, m.hole_area, error);
     put(log, row, (size_t)length);
 }
 

@@ -3,6 +3,7 @@
 #include "sim/explain.h"
 #include "sim/guard.h"
 #include "sim/price.h"
+#include "sim/price_effects.h"
 #include "sim/run.h"
 #include "sim/window.h"
 
@@ -102,6 +103,8 @@ static enum status perform(const struct options *options, struct error *err)
         status = load_meshes(&scene, &meshes, err);
         if (!status && options->accuracy_cost && !options->check)
             status = price_accuracy(&scene, meshes, options->accuracy_cost, err);
+        else if (!status && options->effect_cost && !options->check)
+            status = price_effects(&scene, meshes, options->effect_cost, err);
         else if (!status)
             status = simulate(options, &scene, &meshes, err);
     }

@@ -18,6 +18,7 @@ enum {
     OPTION_RESUME,
     OPTION_ESTIMATE,
     OPTION_ACCURACY_COST,
+    OPTION_EFFECT_COST,
     OPTION_SET,
     OPTION_THREADS,
     OPTION_HASH,
@@ -41,6 +42,9 @@ static const struct argp_option option_table[] = {
     {"accuracy-cost", OPTION_ACCURACY_COST, "FILE", 0,
      "Instead of a run: what each integrator's accuracy costs on this scene, as a table (.tsv) or a plot with the table "
      "beside it (.png, .svg); takes about a minute",
+     1},
+    {"effect-cost", OPTION_EFFECT_COST, "FILE", 0,
+     "Instead of a run: what each effect of this scene costs, and what the answer would be without it, likewise",
      1},
     {"checkpoint", OPTION_CHECKPOINT, "FILE", 0, "Keep the run in this file, now and then and at the end", 1},
     {"checkpoint-every", OPTION_CHECKPOINT_EVERY, "SECONDS", 0, "How often (default: 60)", 1},
@@ -67,11 +71,17 @@ static const char *output_of(const struct options *o)
     const struct {
         const char *name;
         bool wanted;
-    } outputs[] = {{"--frames", o->frames},       {"--movie", o->movie},
-                   {"--contact-sheet", o->sheet}, {"--checkpoint", o->checkpoint},
-                   {"--resume", o->resume},       {"-o", o->mesh},
-                   {"--pieces", o->pieces},       {"--hash", o->hash},
-                   {"--plot", o->plot},           {"--accuracy-cost", o->accuracy_cost}};
+    } outputs[] = {{"--frames", o->frames},
+                   {"--movie", o->movie},
+                   {"--contact-sheet", o->sheet},
+                   {"--checkpoint", o->checkpoint},
+                   {"--resume", o->resume},
+                   {"-o", o->mesh},
+                   {"--pieces", o->pieces},
+                   {"--hash", o->hash},
+                   {"--plot", o->plot},
+                   {"--accuracy-cost", o->accuracy_cost},
+                   {"--effect-cost", o->effect_cost}};
     for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; i++)
         if (outputs[i].wanted)
             return outputs[i].name;
@@ -88,10 +98,21 @@ static void finish(struct options *o, struct argp_state *state)
     if (o->window && output_of(o))
         argp_error(state, "%s runs to the end without a window: leave one of the two out", output_of(o));
     o->window = !output_of(o) && (o->window || (!o->log && !o->estimate));
+    if (o->accuracy_cost && o->effect_cost)
+        argp_error(
+            state,
+            "--accuracy-cost and --effect-cost each take the place of a run: leave one of the two out");
     if (o->checkpoint_every >= 0 && !o->checkpoint)
         argp_error(state, "--checkpoint-every: give --checkpoint FILE too");
     if (o->checkpoint_every < 0)
         o->checkpoint_every = 60;
+}
+
+static const char *table_name(struct argp_state *state, const char *option, const char *argument)
+{
+    if (!file_has_extension(argument, "tsv") && !plot_is_file_name(argument))
+        argp_error(state, "%s %s: the name must end in .tsv, .png or .svg", option, argument);
+    return argument;
 }
 
 static error_t parse_option(int key, char *argument, struct argp_state *state)
@@ -123,9 +144,10 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         o->estimate = true;
         break;
     case OPTION_ACCURACY_COST:
-        if (!file_has_extension(argument, "tsv") && !plot_is_file_name(argument))
-            argp_error(state, "--accuracy-cost %s: the name must end in .tsv, .png or .svg", argument);
-        o->accuracy_cost = argument;
+        o->accuracy_cost = table_name(state, "--accuracy-cost", argument);
+        break;
+    case OPTION_EFFECT_COST:
+        o->effect_cost = table_name(state, "--effect-cost", argument);
         break;
     case 'o':
         if (!mesh_is_file_name(argument))

@@ -11,8 +11,8 @@ struct options {
     size_t set_count;
     const char *frames, *movie, *sheet, *log, *plot, *mesh, *pieces;
     const char *checkpoint, *resume;
-    double checkpoint_every;   /* s */
-    const char *accuracy_cost; /* FILE.tsv, .png or .svg */
+    double checkpoint_every;                 /* s */
+    const char *accuracy_cost, *effect_cost; /* FILE.tsv, .png or .svg */
     bool estimate;
     unsigned threads; /* 0: as many as the machine has */
     bool hash, check, explain, help_scene;

@@ -1,13 +1,10 @@
 #include "sim/price.h"
-#include "common/command.h"
-#include "common/file.h"
 #include "common/plot.h"
-#include "sim/interrupt.h"
+#include "sim/price_file.h"
 #include "sim/price_plot.h"
 
 #include <inttypes.h>
 #include <math.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -87,8 +84,9 @@ static void print_failure(const struct accuracy_failure *f, FILE *stream)
             strcmp(f->first, f->last) ? " to " : "", strcmp(f->first, f->last) ? f->last : "", f->reason);
 }
 
-static void print_table(const struct accuracy_table *table, FILE *stream)
+static void print_table(const void *context, FILE *stream)
 {
+    const struct accuracy_table *table = context;
     print_rows(table, stream);
     print_span(table, stream);
     print_burst(table, stream);
@@ -97,72 +95,30 @@ static void print_table(const struct accuracy_table *table, FILE *stream)
         print_failure(&table->failures[i], stream);
 }
 
-/* The table's name: beside a picture it has the picture's. NULL: no memory. */
-static char *table_name(const char *path)
-{
-    char *name = strdup(path);
-    if (name)
-        memcpy(name + strlen(name) - 3, "tsv", 3);
-    return name;
-}
-
-/* What cannot be written or drawn is found out before the work, not after it. */
-static enum status probe(const char *path, const char *table, struct error *err)
-{
-    struct file_out *out = NULL;
-    enum status status = plot_is_file_name(path) ? plot_check(path, err) : STATUS_OK;
-    if (!status)
-        status = file_out_open(table, &out, err);
-    file_out_abandon(out);
-    return status;
-}
-
-static enum status save_table(const struct accuracy_table *table, const char *path, struct error *err)
-{
-    struct file_out *out;
-    if (file_out_open(path, &out, err))
-        return err->status;
-    print_table(table, file_out_stream(out));
-    return file_out_commit(out, err);
-}
-
-static bool go_on(void *context, double done)
-{
-    (void)context;
-    progress_update(100 * done);
-    return !interrupt_caught();
-}
-
 /* With a progress bar. */
 static enum status measure(const struct scene *scene, const struct mesh *meshes, struct accuracy_table *table,
                            struct error *err)
 {
-    enum { SECONDS = 60 };
-    const struct accuracy_options options = {.seconds = SECONDS, .go_on = go_on};
-    interrupt_watch();
-    progress_begin("pricing", "%", 100);
-    enum status status = accuracy_measure(scene, meshes, &options, table, err);
-    progress_end();
-    if (status == STATUS_INTERRUPTED && interrupt_caught() == SIGTERM)
-        err->status = status = STATUS_TERMINATED;
-    return status;
+    const struct accuracy_options options = {.seconds = PRICE_SECONDS, .go_on = price_go_on};
+    price_watch();
+    return price_watched(accuracy_measure(scene, meshes, &options, table, err), err);
 }
 
 enum status price_accuracy(const struct scene *scene, const struct mesh *meshes, const char *path,
                            struct error *err)
 {
     struct accuracy_table *table = calloc(1, sizeof *table);
-    char *name = table_name(path);
-    enum status status = table && name ? probe(path, name, err) : error_no_memory(err, "the table");
+    struct price_file file;
+    enum status status = price_file_open(&file, path, err);
+    if (!status && !table)
+        status = error_no_memory(err, "the table");
     if (!status)
         status = measure(scene, meshes, table, err);
-    if (!status) {
-        print_table(table, stdout);
-        status = save_table(table, name, err);
-    }
+    if (!status)
+        status = price_file_save(&file, print_table, table, err);
     if (!status && plot_is_file_name(path))
         status = price_plot(table, scene->path, path, err);
     free(table);
-    free(name);
+    price_file_close(&file);
     return status;
 }

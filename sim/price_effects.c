@@ -1,0 +1,101 @@
+#include "sim/price_effects.h"
+#include "common/plot.h"
+#include "sim/price_file.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+
+static void print_row(const char *name, double share, double seconds, double bytes, const double change[3],
+                      double first_break, uint32_t pieces, uint64_t steps, FILE *stream)
+{
+    fprintf(stream, "%s\t%.4g\t%.4g\t%.0f\t%.3e\t%.3e\t%.3e\t%.4g\t%" PRIu32 "\t%" PRIu64 "\n", name, share,
+            seconds, bytes, change[0], change[1], change[2], first_break, pieces, steps);
+}
+
+static void print_table(const void *context, FILE *stream)
+{
+    const struct effect_cost_table *table = context;
+    fputs("without\tshare\tseconds\tbytes\tposition\tvolume\tpressure\tfirst_break\tpieces\tsteps\n", stream);
+    print_row("-", 1, table->seconds, (double)table->bytes, (double[3]){0}, table->first_break, table->pieces,
+              table->steps, stream);
+    for (size_t i = 0; i < table->count; i++) {
+        const struct effect_cost_row *r = &table->rows[i];
+        print_row(r->effect->name, r->share, r->seconds, r->bytes,
+                  (double[3]){r->position, r->volume, r->pressure}, r->first_break, r->pieces, r->steps,
+                  stream);
+    }
+    fprintf(
+        stream,
+        "# until %.4g s of %.4g; share: of the whole's time that the effect takes; seconds: a step on one core, "
+        "the least of %d goes; bytes: that it takes\n"
+        "# position (RMS, in radii), volume and pressure (relative, with the air's where there is gas): by how much the answer is another without it, "
+        "at the most, until something breaks\n",
+        table->span, table->end, table->goes);
+    for (size_t i = 0; i < table->count; i++) {
+        char text[1280];
+        effect_cost_say(table, &table->rows[i], text, sizeof text);
+        fprintf(stream, "# %s\n", text);
+    }
+}
+
+/* Shares of the time, and beside them how much the answer changes. */
+static enum status draw(const struct effect_cost_table *table, const char *scene, const char *path,
+                        struct error *err)
+{
+    double share[EFFECT_COST_ROWS_MAX], change[EFFECT_COST_ROWS_MAX];
+    const char *name[EFFECT_COST_ROWS_MAX];
+    size_t count = 0;
+    for (size_t i = 0; i < table->count; i++)
+        if (!*table->rows[i].refused) {
+            name[count] = table->rows[i].effect->name;
+            share[count] = 100 * table->rows[i].share;
+            change[count++] = fmax(table->rows[i].position, 1e-16);
+        }
+    const struct plot_series of_time = {
+        .style = PLOT_BARS, .y = share, .label = name, .count = count, .colour = 1};
+    const struct plot_series of_places = {
+        .style = PLOT_BARS, .y = change, .label = name, .count = count, .colour = 2};
+    const struct plot_panel panels[] = {{.title = "What each effect costs",
+                                         .y_label = "% of the time",
+                                         .series = &of_time,
+                                         .series_count = 1},
+                                        {.title = "What changes without it",
+                                         .y_label = "RMS change of positions, in radii",
+                                         .log_y = true,
+                                         .series = &of_places,
+                                         .series_count = 1}};
+    const struct plot plot = {
+        .title = scene, .panels = panels, .panel_count = 2, .columns = 2, .width = 500, .height = 420};
+    return plot_save(&plot, path, err);
+}
+
+static enum status measure(const struct scene *scene, const struct mesh *meshes,
+                           struct effect_cost_table *table, struct error *err)
+{
+    const struct effect_cost_options options = {.seconds = PRICE_SECONDS, .go_on = price_go_on};
+    price_watch();
+    return price_watched(effect_cost_measure(scene, meshes, &options, table, err), err);
+}
+
+enum status price_effects(const struct scene *scene, const struct mesh *meshes, const char *path,
+                          struct error *err)
+{
+    struct effect_cost_table *table = calloc(1, sizeof *table);
+    struct price_file file;
+    enum status status = price_file_open(&file, path, err);
+    if (!status && effects_count(scene) == 0)
+        status = error_set(err, STATUS_INPUT, "%s: has no effects: there is nothing to leave out",
+                           scene->path);
+    if (!status && !table)
+        status = error_no_memory(err, "the table");
+    if (!status)
+        status = measure(scene, meshes, table, err);
+    if (!status)
+        status = price_file_save(&file, print_table, table, err);
+    if (!status && plot_is_file_name(path))
+        status = draw(table, scene->path, path, err);
+    free(table);
+    price_file_close(&file);
+    return status;
+}

@@ -1,0 +1,40 @@
+# What each effect of a scene costs and changes: a table on stdout and in a file, what cannot be left out, a picture.
+balloon-sculpt -q --depth 1 -o cube.oct
+balloon-surface -q cube.oct --cube-size 0.3 -o cube.ply
+calm='--set time.end=0.4 --set balloons[0].point_mass=1 --set balloons[0].threshold=100 --set balloons[0].pressure=0'
+effects='--set gravity.acceleration=[0,-3,0] --set drag.air_density=1e-12 --set balloons[0].gas.ambient=0.01'
+expect 0 balloon-sim cube.ply $calm $effects --set 'balloons[0].pressure_on=areas' --effect-cost cost.tsv
+[ "$(head -n 1 .stdout)" = "$(printf 'without\tshare\tseconds\tbytes\tposition\tvolume\tpressure\tfirst_break\tpieces\tsteps')" ] ||
+    fail "the header is another"
+same_file .stdout cost.tsv
+grep -v '^#' cost.tsv | awk -F'\t' 'NF != 10 { exit 1 }' || fail "a row has not ten columns"
+[ "$(grep -v '^#' cost.tsv | cut -f 1 | tr '\n' ' ')" = "without - gas gravity drag " ] || fail "other effects are in the table"
+stdout_has '^# drag: [-0-9.e+]+ % of the time, changes the answer by [0-9.e-]+: you may not need it$'
+stdout_has '^# gravity: [-0-9.e+]+ % of the time, changes positions by 0\.[0-9]+ radii, the volume by '
+stdout_has '^# gas in place of a constant pressure, '
+only_files cube.oct cube.ply cost.tsv
+
+# what needs another, and what only says what something means, cannot be left out alone
+expect 0 balloon-sim cube.ply --set time.end=0.1 --set 'balloons[0].pressure=0.1' --set 'balloons[0].pressure_on=areas' --effect-cost cost.tsv
+stdout_has '^# pressure_on: cannot be left out alone: it says how the pressure acts'
+two='--set balloons[1].mesh=cube.ply --set balloons[1].position=[200,0,0] --set balloons[1].gas.ambient=10'
+expect 0 balloon-sim cube.ply $two --set time.end=0.1 --set 'balloons[0].gas.ambient=10' --set 'balloons[0].tube.to=1' \
+    --set 'balloons[0].tube.area=1' --effect-cost cost.tsv
+stdout_has '^# gas: cannot be left out alone: .*tube: balloons.0. has no gas that could flow'
+stdout_has '^# tube: '
+
+# what a scene bursts by is told
+expect 0 balloon-sim cube.ply --set time.end=0.5 --set 'balloons[0].pressure=0' --set 'balloons[0].rip.at=0.2' --effect-cost cost.tsv
+stdout_has '^# rip: .*without it nothing breaks \(with it at 0\.[0-9]+ s\): you need it$'
+
+refused 1 'has no effects: there is nothing to leave out' balloon-sim cube.ply --effect-cost cost.tsv
+refused 1 'no-folder/cost.tsv' balloon-sim cube.ply $effects --effect-cost no-folder/cost.tsv
+refused 2 'must end in \.tsv, \.png or \.svg' balloon-sim cube.ply --effect-cost cost.pdf
+refused 2 'leave one of the two out' balloon-sim cube.ply --effect-cost cost.tsv --accuracy-cost cost.tsv
+if command -v gnuplot >/dev/null; then
+    expect 0 balloon-sim cube.ply $calm --set drag.air_density=1e-12 --effect-cost cost.svg
+    a_file cost.svg
+    grep -q drag cost.svg || fail "drag is not in the picture"
+else
+    echo "gnuplot is not installed: no picture was drawn"
+fi
