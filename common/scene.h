@@ -258,7 +258,8 @@ enum scene_stereo {
     SCENE_RED_CYAN,
     SCENE_INTERLACED,
     SCENE_LEFT,
-    SCENE_RIGHT
+    SCENE_RIGHT,
+    SCENE_SEPARATE
 };
 
 /* Reads a scene file. *scene must be empty ({0}) and is so again after a failure. Errors: STATUS_FILE, STATUS_INPUT with

@@ -30,7 +30,8 @@
       "what the eye looks at, from the balloons' centre", "")                                                \
     X(field_of_view, NUMBER, 1, 150, "30", "degrees", FREE, "vertical angle of the picture", "")             \
     X(stereo, CHOICE, 0, 0, "\"parallel\"", "", FREE,                                                        \
-      "one eye, both in halves or on one another, or one of the two alone", "paper 3.7")                     \
+      "one eye, both in halves or on one another, one of the two alone, or each in files of its own",        \
+      "paper 3.7")                                                                                           \
     X(squeezed, CHOICE, 0, 0, "\"no\"", "", FREE,                                                            \
       "halves hold the whole's proportions, for screens that stretch them", "")                              \
     X(eye_distance, NUMBER, 0, 1, "0.05", "", FREE, "between the eyes, over the distance to the target", "") \

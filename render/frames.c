@@ -2,6 +2,7 @@
 
 #include "common/array.h"
 #include "common/file.h"
+#include "render/frame_files.h"
 #include "render/movie.h"
 #include "render/sheet.h"
 
@@ -86,10 +87,12 @@ static void release(struct frames *frames, struct slot *slot)
 static enum status write_frame(const struct frames *frames, const struct slot *slot, size_t number,
                                struct error *err)
 {
-    char *path = NULL, time[32];
+    char time[32];
+    char *path = frame_file(frames->folder, frames->options.first + number, frames->options.eye);
     size_t count = frames->options.text_count;
     struct image_text *texts = array_new(count + 1, sizeof *texts);
-    if (!texts || asprintf(&path, "%s/frame_%04zu.png", frames->folder, frames->options.first + number) < 0) {
+    if (!texts || !path) {
+        free(path);
         free(texts);
         return error_no_memory(err, "a frame");
     }
@@ -160,27 +163,27 @@ static enum status start_workers(struct frames *frames, struct error *err)
 }
 
 /* The folder must be there and take files, the movie and the sheet must have a chance. */
-static enum status check_outputs(const struct frames_options *options, struct error *err)
+static enum status check_outputs(const struct frames *frames, struct error *err)
 {
     enum status status = STATUS_OK;
-    if (options->movie)
-        status = movie_check(options->movie, err);
-    if (!status && options->sheet) {
+    if (frames->movie_path)
+        status = movie_check(frames->movie_path, err);
+    if (!status && frames->sheet_path) {
         struct file_out *trial;
-        status = file_out_open(options->sheet, &trial, err);
+        status = file_out_open(frames->sheet_path, &trial, err);
         if (!status)
             file_out_abandon(trial);
     }
-    if (!status && options->folder)
-        status = file_make_folder(options->folder, err);
-    if (!status && options->folder && access(options->folder, W_OK))
-        status = error_set_errno(err, options->folder, "write into the folder");
+    if (!status && frames->folder)
+        status = file_make_folder(frames->folder, err);
+    if (!status && frames->folder && access(frames->folder, W_OK))
+        status = error_set_errno(err, frames->folder, "write into the folder");
     return status;
 }
 
-static bool copy_name(char **copy, const char *name)
+static bool copy_name(char **copy, const char *name, const char *eye)
 {
-    *copy = name ? strdup(name) : NULL;
+    *copy = name ? frame_eye_file(name, eye) : NULL;
     return *copy || !name;
 }
 
@@ -211,18 +214,19 @@ static void stop_threads(struct frames *frames)
 
 enum status frames_open(const struct frames_options *options, struct frames **result, struct error *err)
 {
-    enum status status = check_outputs(options, err);
-    if (status)
-        return status;
+    enum status status = STATUS_OK;
     struct frames *frames = calloc(1, sizeof *frames);
     if (!frames)
         return error_no_memory(err, "the frames");
     frames->options = *options;
     pthread_mutex_init(&frames->lock, NULL);
     pthread_cond_init(&frames->change, NULL);
-    if (!copy_name(&frames->folder, options->folder) || !copy_name(&frames->movie_path, options->movie) ||
-        !copy_name(&frames->sheet_path, options->sheet))
+    if (!copy_name(&frames->folder, options->folder, NULL) ||
+        !copy_name(&frames->movie_path, options->movie, options->eye) ||
+        !copy_name(&frames->sheet_path, options->sheet, options->eye))
         status = error_no_memory(err, "the frames");
+    if (!status)
+        status = check_outputs(frames, err);
     if (!status)
         status = start_workers(frames, err);
     if (status) {

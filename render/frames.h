@@ -20,9 +20,11 @@ struct frames_options {
     const char *folder; /* frame_0000.png, frame_0001.png, ... are written here; made if missing; or NULL */
     const char *movie;  /* .mp4, .webm or .gif, through the program ffmpeg; or NULL */
     const char *sheet;  /* PNG of twelve moments, evenly spaced in how much the picture changes; or NULL */
-    size_t first;       /* number of the first PNG */
-    double rate;        /* pictures a second in the movie; 0: 30 */
-    int workers;        /* threads that encode PNGs; 0: one for each processor */
+    const char
+        *eye;     /* "left" or "right": every name ends in -left or -right, before its extension; or NULL */
+    size_t first; /* number of the first PNG */
+    double rate;  /* pictures a second in the movie; 0: 30 */
+    int workers;  /* threads that encode PNGs; 0: one for each processor */
     const struct image_text
         *texts; /* [text_count] for every PNG, borrowed until frames_close(); "Time" is added */
     size_t text_count;
@@ -30,8 +32,8 @@ struct frames_options {
 
 struct frames;
 
-/* Begins. Errors: STATUS_FILE (the folder cannot be made, is a file or cannot be written), STATUS_USAGE (the
- * movie's extension), STATUS_RESOURCE (ffmpeg is not installed), STATUS_NO_MEMORY. Nothing is left behind. */
+/* Begins. frame_files.h tells what an earlier run has left in the folder. Errors: STATUS_FILE (the folder cannot be made, is a file or cannot be written), STATUS_USAGE (the
+ * movie's extension), STATUS_RESOURCE (ffmpeg is not installed or lacks an encoder), STATUS_NO_MEMORY. Nothing is left behind. */
 enum status frames_open(const struct frames_options *options, struct frames **frames, struct error *err);
 
 /* Adds a copy of the next picture, shown at `time` (seconds, for the sheet's labels and the PNGs' text). All

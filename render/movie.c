@@ -27,24 +27,29 @@ struct movie {
 };
 
 /* How each kind is encoded: for mp4 and webm 4:2:0 colour, which every player takes, marked as BT.709 so that
- * red stays red; for gif a palette of its own for every picture, so that none has to be kept. */
+ * red stays red; for gif a palette of its own for every picture, so that none has to be kept. What is written can be played from
+ * its start however soon it ends: mp4 and webm in fragments of a second. */
 struct kind {
-    const char *extension, *filter;
+    const char *extension, *encoder, *filter;
     const char *options[16];
 };
 
 #define EVEN_BT709 "crop=trunc(iw/2)*2:trunc(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p"
+#define FRAGMENTS  "+frag_keyframe+empty_moov+default_base_moof"
 #define MARK_BT709 "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"
 
 static const struct kind kinds[] = {
     {"mp4",
+     "libx264",
      EVEN_BT709,
-     {"-c:v", "libx264", "-preset", "veryfast", "-crf", "18", "-movflags", "+faststart", MARK_BT709}},
+     {"-preset", "veryfast", "-crf", "18", "-movflags", FRAGMENTS, "-frag_duration", "1000000", MARK_BT709}},
     {"webm",
+     "libvpx-vp9",
      EVEN_BT709,
-     {"-c:v", "libvpx-vp9", "-deadline", "realtime", "-cpu-used", "8", "-crf", "24", "-b:v", "0",
+     {"-deadline", "realtime", "-cpu-used", "8", "-crf", "24", "-b:v", "0", "-cluster_time_limit", "1000",
       MARK_BT709}},
     {"gif",
+     "gif",
      "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=sierra2_4a",
      {"-loop", "0"}},
 };
@@ -55,21 +60,6 @@ static const struct kind *kind_of(const char *path)
         if (file_has_extension(path, kinds[i].extension))
             return &kinds[i];
     return NULL;
-}
-
-enum status movie_check(const char *path, struct error *err)
-{
-    struct stat info;
-    if (!kind_of(path))
-        return error_set(err, STATUS_USAGE, "%s: a movie's name must end in .mp4, .webm or .gif", path);
-    if (!stat(path, &info) && S_ISDIR(info.st_mode))
-        return error_set(err, STATUS_FILE, "%s: is a folder; give the name of a file in it", path);
-    if (!file_program_exists("ffmpeg"))
-        return error_set(err, STATUS_RESOURCE,
-                         "%s: the program ffmpeg is needed for movies and is not installed; on Debian: "
-                         "apt install ffmpeg",
-                         path);
-    return STATUS_OK;
 }
 
 /* Makes an empty file NAME.N.EXTENSION beside NAME.EXTENSION. open() gives it the user's usual permissions,
@@ -106,7 +96,7 @@ static void list_arguments(const struct kind *kind, const char *size, const char
     const char *const begin[] = {"ffmpeg", "-hide_banner", "-loglevel",  "error",    "-nostdin",
                                  "-y",     "-f",           "rawvideo",   "-pix_fmt", "rgb24",
                                  "-s",     size,           "-framerate", rate,       "-i",
-                                 "pipe:0", "-vf",          kind->filter};
+                                 "pipe:0", "-vf",          kind->filter, "-c:v",     kind->encoder};
     size_t count = sizeof begin / sizeof *begin;
     memcpy(list, begin, sizeof begin);
     for (size_t i = 0; i < sizeof kind->options / sizeof *kind->options && kind->options[i]; i++)
@@ -115,10 +105,10 @@ static void list_arguments(const struct kind *kind, const char *size, const char
     list[count] = NULL;
 }
 
-/* Runs ffmpeg with `input` as standard input, what it says going to `messages`, and signals as usual even
+/* Runs ffmpeg with `input` as standard input, what it says going to `output`, and signals as usual even
  * where this thread blocks them. It gets a process group of its own: Ctrl-C is ours to answer, and ffmpeg
- * completes its file when the pipe ends. Returns an errno. */
-static int spawn(struct movie *movie, const char *const *arguments, int input)
+ * completes its file when the pipe ends. Returns an errno; *child is 0 then. */
+static int spawn(const char *const *arguments, int input, int output, pid_t *child)
 {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
@@ -129,19 +119,77 @@ static int spawn(struct movie *movie, const char *const *arguments, int input)
     posix_spawn_file_actions_init(&actions);
     posix_spawnattr_init(&attributes);
     posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, movie->messages, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, movie->messages, STDERR_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, output, STDERR_FILENO);
     posix_spawnattr_setflags(&attributes,
                              POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawnattr_setsigdefault(&attributes, &pipe_only);
-    int problem = posix_spawnp(&movie->ffmpeg, "ffmpeg", &actions, &attributes, (char *const *)arguments,
-                               environ);
+    int problem = posix_spawnp(child, "ffmpeg", &actions, &attributes, (char *const *)arguments, environ);
     posix_spawn_file_actions_destroy(&actions);
     posix_spawnattr_destroy(&attributes);
     if (problem)
-        movie->ffmpeg = 0;
+        *child = 0;
     return problem;
+}
+
+/* True when it was content. */
+static bool wait_for(pid_t child)
+{
+    int result = 0;
+    while (waitpid(child, &result, 0) < 0 && errno == EINTR)
+        ;
+    return WIFEXITED(result) && WEXITSTATUS(result) == 0;
+}
+
+/* What ffmpeg says of its encoders, for free(); NULL where it says nothing. */
+static char *list_encoders(void)
+{
+    static const char *const arguments[] = {"ffmpeg", "-hide_banner", "-encoders", NULL};
+    const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC), said = memfd_create("ffmpeg", MFD_CLOEXEC);
+    char *text = NULL;
+    pid_t child;
+    if (nothing >= 0 && said >= 0 && !spawn(arguments, nothing, said, &child) && wait_for(child)) {
+        const off_t size = lseek(said, 0, SEEK_END);
+        text = size > 0 ? calloc(1, (size_t)size + 1) : NULL;
+        if (text && pread(said, text, (size_t)size, 0) != size)
+            text[0] = '\0';
+    }
+    if (nothing >= 0)
+        close(nothing);
+    if (said >= 0)
+        close(said);
+    return text;
+}
+
+/* False only where ffmpeg lists its encoders and this one is not among them. */
+static bool may_encode(const struct kind *kind)
+{
+    char *list = list_encoders(), word[32];
+    snprintf(word, sizeof word, " %s ", kind->encoder);
+    const bool lacks = list && strstr(list, "Encoders:") && !strstr(list, word);
+    free(list);
+    return !lacks;
+}
+
+enum status movie_check(const char *path, struct error *err)
+{
+    struct stat info;
+    if (!kind_of(path))
+        return error_set(err, STATUS_USAGE, "%s: a movie's name must end in .mp4, .webm or .gif", path);
+    if (!stat(path, &info) && S_ISDIR(info.st_mode))
+        return error_set(err, STATUS_FILE, "%s: is a folder; give the name of a file in it", path);
+    if (!file_program_exists("ffmpeg"))
+        return error_set(err, STATUS_RESOURCE,
+                         "%s: the program ffmpeg is needed for movies and is not installed; on Debian: "
+                         "apt install ffmpeg",
+                         path);
+    if (!may_encode(kind_of(path)))
+        return error_set(err, STATUS_RESOURCE,
+                         "%s: the ffmpeg that is installed lacks the encoder %s; take another ending of "
+                         ".mp4, .webm and .gif, or an ffmpeg with it",
+                         path, kind_of(path)->encoder);
+    return STATUS_OK;
 }
 
 static enum status start_ffmpeg(struct movie *movie, double rate, struct error *err)
@@ -160,7 +208,7 @@ static enum status start_ffmpeg(struct movie *movie, double rate, struct error *
     snprintf(size, sizeof size, "%dx%d", movie->width, movie->height);
     snprintf(rate_text, sizeof rate_text, "%.6f", rate);
     list_arguments(kind_of(movie->target), size, rate_text, output, arguments);
-    int problem = spawn(movie, arguments, ends[0]);
+    int problem = spawn(arguments, ends[0], movie->messages, &movie->ffmpeg);
     free(output);
     close(ends[0]);
     movie->pipe = ends[1];
@@ -173,9 +221,7 @@ static enum status start_ffmpeg(struct movie *movie, double rate, struct error *
 enum status movie_open(const char *path, int width, int height, double rate, struct movie **result,
                        struct error *err)
 {
-    enum status status = movie_check(path, err);
-    if (status)
-        return status;
+    enum status status = STATUS_OK;
     if (width < 2 || height < 2)
         return error_set(err, STATUS_RANGE, "%s: a movie needs pictures of at least 2 x 2, not %d x %d", path,
                          width, height);
@@ -221,16 +267,12 @@ static const char *last_message(const struct movie *movie, char *text, size_t si
 /* Closes the pipe and waits. True when ffmpeg was content. */
 static bool finish_ffmpeg(struct movie *movie)
 {
-    int result = 0;
+    const pid_t child = movie->ffmpeg;
     if (movie->pipe >= 0)
         close(movie->pipe);
     movie->pipe = -1;
-    if (!movie->ffmpeg)
-        return false;
-    while (waitpid(movie->ffmpeg, &result, 0) < 0 && errno == EINTR)
-        ;
     movie->ffmpeg = 0;
-    return WIFEXITED(result) && WEXITSTATUS(result) == 0;
+    return child && wait_for(child);
 }
 
 static enum status ffmpeg_failed(const struct movie *movie, struct error *err)

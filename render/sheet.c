@@ -112,6 +112,8 @@ int sheet_choose(const struct sheet *sheet, int chosen[SHEET_MOMENTS])
 static int decimals_for(const struct sheet *sheet)
 {
     double span = sheet->moments[sheet->count - 1].time - sheet->moments[0].time;
+    if (!(span > 0))
+        return 3; /* all of one moment */
     double decimals = -floor(log10(span / (SHEET_MOMENTS - 1)));
     return decimals > 0 && decimals < 7 ? (int)decimals : 0;
 }

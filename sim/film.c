@@ -1,8 +1,10 @@
 #include "sim/film.h"
 
 #include "common/vec3.h"
+#include "render/frame_files.h"
 #include "sim/skins.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -10,7 +12,10 @@ struct film {
     struct skins skins;
     struct render *render;
     struct render_view view;
-    struct frames *frames;
+    double away[3];           /* from the target to the eye, as the scene has it */
+    struct frames *frames[2]; /* of both eyes, or the left one's with the second NULL */
+    const char *folder;       /* whose frames of an earlier run are still there; or NULL */
+    size_t first, removed;
     struct image image;
     char *keys;                 /* the scene's, a line each */
     struct image_text texts[2]; /* of every PNG */
@@ -50,6 +55,26 @@ static void set_camera(struct render_view *view, const struct sim *sim, const do
     view->floor_height = centre[1] - 1.8 * radius; /* it floats, with room to swell */
 }
 
+static const struct {
+    enum render_stereo stereo;
+    const char *name;
+} eyes[2] = {{RENDER_LEFT, "left"}, {RENDER_RIGHT, "right"}};
+
+static enum status open_frames(struct film *film, const struct scene *scene,
+                               const struct frames_options *options, struct error *err)
+{
+    const bool separate = scene->view.stereo == SCENE_SEPARATE;
+    struct frames_options own = *options;
+    own.texts = film->texts;
+    own.text_count = sizeof film->texts / sizeof *film->texts;
+    enum status status = STATUS_OK;
+    for (int i = 0; i < (separate ? 2 : 1) && !status; i++) {
+        own.eye = separate ? eyes[i].name : NULL;
+        status = frames_open(&own, &film->frames[i], err);
+    }
+    return status;
+}
+
 enum status film_open(struct sim *sim, const double centre[3], double radius,
                       const struct frames_options *options, struct film **result, struct error *err)
 {
@@ -57,16 +82,16 @@ enum status film_open(struct sim *sim, const double centre[3], double radius,
     if (!film)
         return error_no_memory(err, "the film");
     set_camera(&film->view, sim, centre, radius);
+    vec3_sub(film->view.camera.eye, film->view.camera.target, film->away);
+    film->folder = options->folder;
+    film->first = options->first;
     enum status status = skins_init(&film->skins, sim, err);
     if (!status)
         status = render_open(film->view.width, film->view.height, &film->render, err);
     if (!status)
         status = make_texts(film, sim->scene, err);
-    struct frames_options with_texts = *options;
-    with_texts.texts = film->texts;
-    with_texts.text_count = sizeof film->texts / sizeof *film->texts;
     if (!status)
-        status = frames_open(&with_texts, &film->frames, err);
+        status = open_frames(film, sim->scene, options, err);
     if (status)
         film_close(film, NULL);
     else
@@ -74,20 +99,60 @@ enum status film_open(struct sim *sim, const double centre[3], double radius,
     return status;
 }
 
-enum status film_frame(struct film *film, struct error *err)
+void film_turn(struct film *film, double turns)
+{
+    struct render_camera *camera = &film->view.camera;
+    const double angle = 2 * M_PI * turns, c = cos(angle), s = sin(angle), *away = film->away;
+    camera->eye[0] = camera->target[0] + c * away[0] + s * away[2];
+    camera->eye[2] = camera->target[2] - s * away[0] + c * away[2];
+}
+
+/* A film is never a mixture of two runs, however this one ends. */
+static enum status remove_old(struct film *film, struct error *err)
+{
+    enum status status = film->folder ? frame_files_remove(film->folder, film->first, &film->removed, err)
+                                      : STATUS_OK;
+    film->folder = NULL;
+    return status;
+}
+
+size_t film_removed(const struct film *film)
+{
+    return film ? film->removed : 0;
+}
+
+static enum status draw_eye(struct film *film, int eye, struct error *err)
 {
     const struct sim *sim = film->skins.sim;
-    skins_update(&film->skins);
+    if (film->frames[1])
+        film->view.stereo = eyes[eye].stereo;
     enum status status = render_draw(film->render, &film->view, film->skins.skins, sim->balloon_count,
                                      &film->image, err);
-    return status ? status : frames_add(film->frames, &film->image, sim->time, err);
+    if (!status)
+        status = remove_old(film, err);
+    return status ? status : frames_add(film->frames[eye], &film->image, sim->time, err);
+}
+
+enum status film_frame(struct film *film, struct error *err)
+{
+    enum status status = STATUS_OK;
+    skins_update(&film->skins);
+    for (int eye = 0; eye < 2 && film->frames[eye] && !status; eye++)
+        status = draw_eye(film, eye, err);
+    return status;
 }
 
 enum status film_close(struct film *film, struct error *err)
 {
+    struct error other;
+    enum status status = STATUS_OK;
     if (!film)
         return STATUS_OK;
-    enum status status = film->frames ? frames_close(film->frames, err) : STATUS_OK;
+    for (int eye = 0; eye < 2; eye++) {
+        const enum status closed = film->frames[eye] ? frames_close(film->frames[eye], status ? &other : err)
+                                                     : STATUS_OK;
+        status = status ? status : closed;
+    }
     render_close(film->render);
     image_clear(&film->image);
     skins_clear(&film->skins);

@@ -27,13 +27,18 @@ enum {
     OPTION_HELP_SCENE,
     OPTION_WINDOW,
     OPTION_PLOT,
-    OPTION_PIECES
+    OPTION_PIECES,
+    OPTION_TURNTABLE
 };
 
 static const struct argp_option option_table[] = {
     {"frames", OPTION_FRAMES, "DIR", 0, "Draw the frames into this folder: frame_0000.png, ...", 1},
     {"movie", OPTION_MOVIE, "FILE", 0, "Make a movie (.mp4, .webm or .gif; needs the program ffmpeg)", 1},
     {"contact-sheet", OPTION_SHEET, "FILE.png", 0, "Draw twelve moments into one picture", 1},
+    {"turntable", OPTION_TURNTABLE, "N", OPTION_ARG_OPTIONAL,
+     "The camera goes once round the balloons over the film; with N, over so many pictures of the last state, and "
+     "these are the film",
+     1},
     {"log", OPTION_LOG, "FILE.tsv", 0, "Write a row of measures a frame", 1},
     {"plot", OPTION_PLOT, "FILE.png", 0,
      "Draw pressure, radius, energy and pieces over time (.png or .svg; needs the program gnuplot)", 1},
@@ -102,6 +107,8 @@ static void finish(struct options *o, struct argp_state *state)
         argp_error(
             state,
             "--accuracy-cost and --effect-cost each take the place of a run: leave one of the two out");
+    if (o->turntable && !o->frames && !o->movie && !o->sheet)
+        argp_error(state, "--turntable: give --frames DIR, --movie FILE or --contact-sheet FILE too");
     if (o->checkpoint_every >= 0 && !o->checkpoint)
         argp_error(state, "--checkpoint-every: give --checkpoint FILE too");
     if (o->checkpoint_every < 0)
@@ -127,6 +134,11 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         break;
     case OPTION_SHEET:
         o->sheet = argument;
+        break;
+    case OPTION_TURNTABLE:
+        o->turntable = true;
+        if (argument)
+            o->turntable_frames = command_whole(state, "--turntable", argument, 1, 1000000);
         break;
     case OPTION_LOG:
         o->log = argument;

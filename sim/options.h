@@ -13,6 +13,8 @@ struct options {
     const char *checkpoint, *resume;
     double checkpoint_every;                 /* s */
     const char *accuracy_cost, *effect_cost; /* FILE.tsv, .png or .svg */
+    bool turntable;                          /* the camera goes round over the film ... */
+    long turntable_frames;                   /* ... or, above 0, over so many pictures of the last state */
     bool estimate;
     unsigned threads; /* 0: as many as the machine has */
     bool hash, check, explain, help_scene;

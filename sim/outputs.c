@@ -28,6 +28,8 @@ enum status outputs_open(struct outputs *outputs, const struct options *options,
     enum status status = STATUS_OK;
     outputs->plot = options->plot;
     outputs->title = options->scene;
+    outputs->turntable = options->turntable;
+    outputs->turntable_frames = options->turntable_frames;
     if (past) {
         outputs->shown = past->shown;
         outputs->next = floor(sim->time * sim->scene->view.rate + 1e-6) + 1;
@@ -39,7 +41,7 @@ enum status outputs_open(struct outputs *outputs, const struct options *options,
     struct frames_options frames = {.folder = options->frames,
                                     .movie = options->movie,
                                     .sheet = options->sheet,
-                                    .first = outputs->shown,
+                                    .first = options->turntable_frames ? 0 : outputs->shown,
                                     .rate = sim->scene->view.playback};
     return film_open(sim, outputs->centre, outputs->radius, &frames, &outputs->film, err);
 }
@@ -55,7 +57,21 @@ static enum status show_state(struct outputs *outputs, struct sim *sim, struct e
     outputs->shown++;
     if (outputs->log)
         sim_log_row(outputs->log, sim, error);
-    return outputs->film ? film_frame(outputs->film, err) : STATUS_OK;
+    if (!outputs->film || outputs->turntable_frames)
+        return STATUS_OK;
+    if (outputs->turntable)
+        film_turn(outputs->film, sim->time / sim->scene->time.end);
+    return film_frame(outputs->film, err);
+}
+
+enum status outputs_finish(struct outputs *outputs, struct error *err)
+{
+    enum status status = STATUS_OK;
+    for (long i = 0; i < outputs->turntable_frames && !status; i++) {
+        film_turn(outputs->film, (double)i / (double)outputs->turntable_frames);
+        status = film_frame(outputs->film, err);
+    }
+    return status;
 }
 
 /* At their own times where the method can tell what was inside a step, else one of the state as it is now. */

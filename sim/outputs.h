@@ -16,6 +16,8 @@ struct outputs {
     double next;               /* number of the next frame, in frames of view.rate */
     const char *plot, *title;  /* file of the log's plot (NULL: none), and what stands above it; borrowed */
     uint64_t shown;            /* frames so far */
+    bool turntable;            /* the camera goes round, ... */
+    long turntable_frames;     /* ... and not before the end, if this is above 0 */
 };
 
 /* Remembers where everything is at rest: before a state is loaded. */
@@ -28,6 +30,9 @@ enum status outputs_open(struct outputs *outputs, const struct options *options,
 
 /* All frames that are due by now. */
 enum status outputs_show(struct outputs *outputs, struct sim *sim, struct error *err);
+
+/* After the last step: draws what is only drawn of the last state. */
+enum status outputs_finish(struct outputs *outputs, struct error *err);
 
 /* Ends all, after a run that ended with `status`: one that diverged or was interrupted keeps what it has shown so far; any other
  * failure leaves the old log. Returns that status, or the first failure here. */

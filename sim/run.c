@@ -149,6 +149,14 @@ static enum status begin(struct run *run, struct error *err)
     return status;
 }
 
+static void note_removed(const struct run *run)
+{
+    const size_t removed = film_removed(run->outputs.film);
+    if (removed)
+        command_note("%s: %zu frame%s of an earlier run removed", run->options->frames, removed,
+                     removed == 1 ? "" : "s");
+}
+
 static enum status save_skin(const struct sim *sim, const char *path, struct error *err)
 {
     struct mesh mesh = {0};
@@ -200,6 +208,9 @@ enum status run(const struct options *options, struct sim *sim, struct estimate 
     enum status status = begin(&run, err);
     if (!status)
         status = step_to_end(&run, err);
+    if (!status)
+        status = outputs_finish(&run.outputs, err);
+    note_removed(&run);
     status = outputs_close(&run.outputs, status, err);
     if (!status && options->mesh)
         status = save_skin(sim, options->mesh, err);

@@ -21,7 +21,8 @@ void skins_clear(struct skins *skins);
 /* Normals, opacity, shininess and stretch of the state as it is: before each picture. */
 void skins_update(struct skins *skins);
 
-/* What the scene says of the picture but its camera: size, stereo, style, order, samples. */
+/* What the scene says of the picture but its camera: size, stereo, style, order, samples. Eyes that are separate in files are side by
+ * side where there is one picture. */
 void skins_view(const struct scene_view *scene, struct render_view *view);
 
 /* The ball around all points as they are; returns its radius. */
