@@ -170,7 +170,10 @@ static void product(struct sim *sim, struct sim_balloon *balloon, double a, doub
 /* Beyond these no law of rubber holds, or gets any stiffer. */
 static const double most_a = 1e6, least_d = MEMBRANE_CRUSHED / 2;
 
-/* What the guard took its stiffness for must hold what there is; with some room, so that it is seldom asked. */
+/* The guard's range around a strain, which must hold what there is: with so much room that it is seldom asked again, and moved back only
+ * where it has become far too wide. Near a law's limit a little more of stretch is a lot more of stiffness. */
+static const double room = 1.15, too_wide = 2;
+
 static void watch(struct sim *sim, struct sim_balloon *b)
 {
     double *range = b->now->membrane_range, most = 0, least = INFINITY;
@@ -179,12 +182,13 @@ static void watch(struct sim *sim, struct sim_balloon *b)
             most = fmax(most, b->membrane->range[i][0]);
             least = fmin(least, b->membrane->range[i][1]);
         }
-    if ((most <= range[0] || range[0] >= most_a) && (least >= range[1] || range[1] <= least_d))
+    const double wanted[2] = {fmin(room * fmax(most, first_range[0] / room), most_a),
+                              fmax(fmin(least, first_range[1] * room) / room, least_d)};
+    const bool narrow = fmin(most, most_a) > range[0] || fmax(least, least_d) < range[1];
+    const bool wide = wanted[0] * too_wide < range[0] || wanted[1] > range[1] * too_wide;
+    if (!narrow && !wide)
         return;
-    if (most > range[0])
-        range[0] = fmin(1.5 * most, most_a);
-    if (least < range[1])
-        range[1] = fmax(least / 2, least_d);
+    memcpy(range, wanted, sizeof wanted);
     guard_outdated(sim);
 }
 
