@@ -108,6 +108,20 @@ bool mesh_is_file_name(const char *path);
  * STATUS_NO_MEMORY. */
 enum status mesh_save(const struct mesh *mesh, const char *path, struct error *err);
 
+/* A number of each point that goes into its file beside the place: float, or whole where there are no numbers. */
+struct mesh_value {
+    const char *name;
+    const float *number;  /* [point_count] or NULL, and */
+    const int32_t *whole; /* [point_count] */
+};
+enum { MESH_VALUES_MAX = 8 };
+
+/* Writes a .ply as mesh_save() does, with up to MESH_VALUES_MAX further properties of its points (mesh_load() passes them over), or, by the
+ * extension .vtp, the XML PolyData of VTK (its file formats, "VTK User's Guide", 11th edition, chapter 19): VTK's and ParaView's
+ * readers know no properties of .ply but their own. Errors: STATUS_USAGE for another extension, STATUS_FILE. */
+enum status mesh_save_values(const struct mesh *mesh, const struct mesh_value *values, size_t count,
+                             const char *path, struct error *err);
+
 /* Volume enclosed by the triangles (signed, from the divergence theorem) and their whole area. An open
  * mesh is taken as closed by cones from its boundaries to the mean of its points. */
 double mesh_volume(const struct mesh *mesh);

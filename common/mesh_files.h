@@ -16,6 +16,10 @@ enum status mesh_read_stl(const struct bytes *bytes, const char *path, struct me
 enum status mesh_read_obj(const struct bytes *bytes, const char *path, struct mesh *mesh, struct error *err);
 
 enum status mesh_write_ply(const struct mesh *mesh, FILE *stream, struct error *err);
+void mesh_write_ply_values(const struct mesh *mesh, const struct mesh_value *values, size_t count,
+                           FILE *stream);
+void mesh_write_vtp_values(const struct mesh *mesh, const struct mesh_value *values, size_t count,
+                           FILE *stream);
 enum status mesh_write_stl(const struct mesh *mesh, FILE *stream, struct error *err);
 enum status mesh_write_obj(const struct mesh *mesh, FILE *stream, struct error *err);
 

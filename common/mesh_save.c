@@ -28,3 +28,21 @@ enum status mesh_save(const struct mesh *mesh, const char *path, struct error *e
     }
     return file_out_commit(out, err);
 }
+
+enum status mesh_save_values(const struct mesh *mesh, const struct mesh_value *values, size_t count,
+                             const char *path, struct error *err)
+{
+    const bool ply = file_has_extension(path, "ply");
+    struct file_out *out;
+    if (!ply && !file_has_extension(path, "vtp"))
+        return error_set(err, STATUS_USAGE, "%s: no format for meshes with values; must be .ply or .vtp",
+                         path);
+    enum status status = file_out_open(path, &out, err);
+    if (status)
+        return status;
+    if (ply)
+        mesh_write_ply_values(mesh, values, count, file_out_stream(out));
+    else
+        mesh_write_vtp_values(mesh, values, count, file_out_stream(out));
+    return file_out_commit(out, err);
+}

@@ -1,57 +1,49 @@
-/* The formats that meshes are saved in. Binary numbers are put together byte by byte, so that files are the
- * same on any machine. */
+/* The formats that meshes are saved in. */
 #include "common/mesh_files.h"
+#include "common/put.h"
 #include "common/vec3.h"
 
 #include <float.h>
-#include <string.h>
 
-/* Puts the low `size` bytes of bits at `to`, lowest first, and returns the place behind them. */
-static unsigned char *put(unsigned char *to, uint64_t bits, size_t size)
+static void write_ply_point(const struct mesh *mesh, uint32_t p, const struct mesh_value *values,
+                            size_t count, FILE *stream)
 {
-    for (size_t i = 0; i < size; i++)
-        to[i] = (unsigned char)(bits >> 8 * i);
-    return to + size;
+    unsigned char row[3 * 8 + 3 * 4 + 4 * MESH_VALUES_MAX], *to = row;
+    for (int i = 0; i < 3; i++)
+        to = put_double(to, mesh->position[p][i]);
+    for (int i = 0; i < 3 && mesh->normal; i++)
+        to = put_float(to, mesh->normal[p][i]);
+    for (size_t v = 0; v < count; v++)
+        to = values[v].number ? put_float(to, (double)values[v].number[p])
+                              : put_bits(to, (uint32_t)values[v].whole[p], 4);
+    fwrite(row, 1, (size_t)(to - row), stream);
 }
 
-static unsigned char *put_float(unsigned char *to, double value)
+void mesh_write_ply_values(const struct mesh *mesh, const struct mesh_value *values, size_t count,
+                           FILE *stream)
 {
-    float single = (float)value;
-    uint32_t bits;
-    memcpy(&bits, &single, sizeof bits);
-    return put(to, bits, sizeof bits);
-}
-
-static unsigned char *put_double(unsigned char *to, double value)
-{
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return put(to, bits, sizeof bits);
+    fprintf(stream, "ply\nformat binary_little_endian 1.0\nelement vertex %u\n", mesh->point_count);
+    fputs("property double x\nproperty double y\nproperty double z\n", stream);
+    if (mesh->normal)
+        fputs("property float nx\nproperty float ny\nproperty float nz\n", stream);
+    for (size_t v = 0; v < count; v++)
+        fprintf(stream, "property %s %s\n", values[v].number ? "float" : "int", values[v].name);
+    fprintf(stream, "element face %u\nproperty list uchar uint vertex_indices\nend_header\n",
+            mesh->triangle_count);
+    for (uint32_t p = 0; p < mesh->point_count; p++)
+        write_ply_point(mesh, p, values, count, stream);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        unsigned char row[1 + 3 * 4], *to = put_bits(row, 3, 1);
+        for (int k = 0; k < 3; k++)
+            to = put_bits(to, mesh->triangle[t][k], 4);
+        fwrite(row, 1, sizeof row, stream);
+    }
 }
 
 enum status mesh_write_ply(const struct mesh *mesh, FILE *stream, struct error *err)
 {
     (void)err;
-    fprintf(stream, "ply\nformat binary_little_endian 1.0\nelement vertex %u\n", mesh->point_count);
-    fputs("property double x\nproperty double y\nproperty double z\n", stream);
-    if (mesh->normal)
-        fputs("property float nx\nproperty float ny\nproperty float nz\n", stream);
-    fprintf(stream, "element face %u\nproperty list uchar uint vertex_indices\nend_header\n",
-            mesh->triangle_count);
-    for (uint32_t p = 0; p < mesh->point_count; p++) {
-        unsigned char row[3 * 8 + 3 * 4], *to = row;
-        for (int i = 0; i < 3; i++)
-            to = put_double(to, mesh->position[p][i]);
-        for (int i = 0; i < 3 && mesh->normal; i++)
-            to = put_float(to, mesh->normal[p][i]);
-        fwrite(row, 1, (size_t)(to - row), stream);
-    }
-    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
-        unsigned char row[1 + 3 * 4], *to = put(row, 3, 1);
-        for (int k = 0; k < 3; k++)
-            to = put(to, mesh->triangle[t][k], 4);
-        fwrite(row, 1, sizeof row, stream);
-    }
+    mesh_write_ply_values(mesh, NULL, 0, stream);
     return STATUS_OK;
 }
 
@@ -85,7 +77,7 @@ enum status mesh_write_stl(const struct mesh *mesh, FILE *stream, struct error *
     if (status)
         return status;
     unsigned char head[84] = "balloon";
-    put(head + 80, mesh->triangle_count, 4);
+    put_bits(head + 80, mesh->triangle_count, 4);
     fwrite(head, 1, sizeof head, stream);
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
         unsigned char facet[50], *to = facet;
@@ -97,7 +89,7 @@ enum status mesh_write_stl(const struct mesh *mesh, FILE *stream, struct error *
             for (int i = 0; i < 3; i++)
                 to = put_float(to, mesh->position[mesh->triangle[t][k]][i]);
         }
-        put(to, 0, 2);
+        put_bits(to, 0, 2);
         fwrite(facet, 1, sizeof facet, stream);
     }
     return STATUS_OK;

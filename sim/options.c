@@ -7,6 +7,7 @@
 #include "common/threads.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 enum {
     OPTION_FRAMES = 256,
@@ -28,7 +29,11 @@ enum {
     OPTION_WINDOW,
     OPTION_PLOT,
     OPTION_PIECES,
-    OPTION_TURNTABLE
+    OPTION_TURNTABLE,
+    OPTION_SERIES,
+    OPTION_SERIES_FORMAT,
+    OPTION_SERIES_CONSTANT,
+    OPTION_CACHE
 };
 
 static const struct argp_option option_table[] = {
@@ -39,6 +44,15 @@ static const struct argp_option option_table[] = {
      "The camera goes once round the balloons over the film; with N, over so many pictures of the last state, and "
      "these are the film",
      1},
+    {"mesh-series", OPTION_SERIES, "DIR", 0,
+     "Write a mesh a frame into this folder, with stretch, opacity and piece of each point, and the list that ParaView opens",
+     1},
+    {"mesh-series-format", OPTION_SERIES_FORMAT, "FORMAT", 0,
+     "ply (default), or vtp, of which VTK and ParaView read stretch, opacity and piece", 1},
+    {"mesh-series-constant", OPTION_SERIES_CONSTANT, 0, 0,
+     "Number points alike in all frames: three of its own for each triangle", 1},
+    {"point-cache", OPTION_CACHE, "FILE.pc2", 0,
+     "Write the skin's motion for Blender's modifier Mesh Cache, and the mesh that it moves as FILE.ply", 1},
     {"log", OPTION_LOG, "FILE.tsv", 0, "Write a row of measures a frame", 1},
     {"plot", OPTION_PLOT, "FILE.png", 0,
      "Draw pressure, radius, energy and pieces over time (.png or .svg; needs the program gnuplot)", 1},
@@ -83,6 +97,8 @@ static const char *output_of(const struct options *o)
                    {"--resume", o->resume},
                    {"-o", o->mesh},
                    {"--pieces", o->pieces},
+                   {"--mesh-series", o->series},
+                   {"--point-cache", o->cache},
                    {"--hash", o->hash},
                    {"--plot", o->plot},
                    {"--accuracy-cost", o->accuracy_cost},
@@ -109,6 +125,9 @@ static void finish(struct options *o, struct argp_state *state)
             "--accuracy-cost and --effect-cost each take the place of a run: leave one of the two out");
     if (o->turntable && !o->frames && !o->movie && !o->sheet)
         argp_error(state, "--turntable: give --frames DIR, --movie FILE or --contact-sheet FILE too");
+    if ((o->series_vtp || o->series_constant) && !o->series)
+        argp_error(state, "--mesh-series-%s: give --mesh-series DIR too",
+                   o->series_vtp ? "format" : "constant");
     if (o->checkpoint_every >= 0 && !o->checkpoint)
         argp_error(state, "--checkpoint-every: give --checkpoint FILE too");
     if (o->checkpoint_every < 0)
@@ -186,6 +205,22 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         break;
     case OPTION_PLOT:
         o->plot = argument;
+        break;
+    case OPTION_SERIES:
+        o->series = argument;
+        break;
+    case OPTION_SERIES_FORMAT:
+        o->series_vtp = !strcmp(argument, "vtp");
+        if (!o->series_vtp && strcmp(argument, "ply"))
+            argp_error(state, "--mesh-series-format %s: must be ply or vtp", argument);
+        break;
+    case OPTION_SERIES_CONSTANT:
+        o->series_constant = true;
+        break;
+    case OPTION_CACHE:
+        if (!file_has_extension(argument, "pc2"))
+            argp_error(state, "--point-cache %s: the name must end in .pc2", argument);
+        o->cache = argument;
         break;
     case OPTION_PIECES:
         o->pieces = argument;

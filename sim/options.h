@@ -10,6 +10,8 @@ struct options {
     const char **set; /* [set_count] KEY=VALUE, in order */
     size_t set_count;
     const char *frames, *movie, *sheet, *log, *plot, *mesh, *pieces;
+    const char *series, *cache; /* DIR; FILE.pc2 */
+    bool series_vtp, series_constant;
     const char *checkpoint, *resume;
     double checkpoint_every;                 /* s */
     const char *accuracy_cost, *effect_cost; /* FILE.tsv, .png or .svg */

@@ -22,6 +22,21 @@ static enum status open_log(struct outputs *outputs, const struct options *optio
     return sim_log_open(options->log, &log, &outputs->log, err);
 }
 
+static enum status open_meshes(struct outputs *outputs, const struct options *options, struct sim *sim,
+                               struct error *err)
+{
+    const struct mesh_series_options series = {.folder = options->series,
+                                               .vtp = options->series_vtp,
+                                               .apart = options->series_constant,
+                                               .first = outputs->shown};
+    enum status status = STATUS_OK;
+    if (options->series)
+        status = mesh_series_open(sim, &series, &outputs->series, err);
+    if (!status && options->cache)
+        status = motion_cache_open(sim, options->cache, outputs->shown, &outputs->cache, err);
+    return status;
+}
+
 enum status outputs_open(struct outputs *outputs, const struct options *options, struct sim *sim,
                          const struct checkpoint_run *past, struct error *err)
 {
@@ -36,6 +51,8 @@ enum status outputs_open(struct outputs *outputs, const struct options *options,
     }
     if (options->log || options->plot)
         status = open_log(outputs, options, past, err);
+    if (!status)
+        status = open_meshes(outputs, options, sim, err);
     if (status || (!options->frames && !options->movie && !options->sheet))
         return status;
     struct frames_options frames = {.folder = options->frames,
@@ -57,8 +74,12 @@ static enum status show_state(struct outputs *outputs, struct sim *sim, struct e
     outputs->shown++;
     if (outputs->log)
         sim_log_row(outputs->log, sim, error);
-    if (!outputs->film || outputs->turntable_frames)
-        return STATUS_OK;
+    if (outputs->series)
+        status = mesh_series_add(outputs->series, err);
+    if (outputs->cache && !status)
+        status = motion_cache_add(outputs->cache, err);
+    if (status || !outputs->film || outputs->turntable_frames)
+        return status;
     if (outputs->turntable)
         film_turn(outputs->film, sim->time / sim->scene->time.end);
     return film_frame(outputs->film, err);
@@ -98,6 +119,19 @@ static enum status draw_plot(struct outputs *outputs, struct error *err)
                 : error_no_memory(err, "the plot");
 }
 
+/* The log's and the cache's older files stay where the run is not to be kept. */
+static enum status close_files(struct outputs *outputs, bool keep, struct error *err)
+{
+    if (!keep) {
+        sim_log_abandon(outputs->log);
+        motion_cache_abandon(outputs->cache);
+        return STATUS_OK;
+    }
+    enum status status = motion_cache_close(outputs->cache, err);
+    enum status closed = sim_log_close(outputs->log, status ? NULL : err);
+    return status ? status : closed;
+}
+
 enum status outputs_close(struct outputs *outputs, enum status status, struct error *err)
 {
     const bool keep = !status || status == STATUS_DIVERGED || status == STATUS_INTERRUPTED ||
@@ -106,9 +140,9 @@ enum status outputs_close(struct outputs *outputs, enum status status, struct er
     enum status closed = film_close(outputs->film, &other);
     if (keep && outputs->plot && outputs->log && draw_plot(outputs, closed ? NULL : &other) && !closed)
         closed = other.status;
-    if (!keep)
-        sim_log_abandon(outputs->log);
-    else if (sim_log_close(outputs->log, closed ? NULL : &other) && !closed)
+    if (mesh_series_close(outputs->series, &outputs->removed, closed ? NULL : &other) && !closed)
+        closed = other.status;
+    if (close_files(outputs, keep, closed ? NULL : &other) && !closed)
         closed = other.status;
     if (status || !closed)
         return status;

@@ -1,4 +1,4 @@
-/* What becomes of a run's states: pictures, and rows in the log. */
+/* What becomes of a run's states: pictures, meshes, and rows in the log. */
 #ifndef SIM_OUTPUTS_H
 #define SIM_OUTPUTS_H
 
@@ -6,14 +6,19 @@
 #include "sim/estimate.h"
 #include "sim/film.h"
 #include "sim/log.h"
+#include "sim/mesh_series.h"
+#include "sim/motion_cache.h"
 #include "sim/options.h"
 
 struct outputs {
     struct film *film;
     struct sim_log *log;
+    struct mesh_series *series;
+    struct motion_cache *cache;
     struct estimate *estimate; /* asked about each frame; borrowed; NULL: nobody asks */
     double centre[3], radius;  /* of the ball around all points at rest */
     double next;               /* number of the next frame, in frames of view.rate */
+    size_t removed;            /* meshes of an earlier run, by outputs_close() */
     const char *plot, *title;  /* file of the log's plot (NULL: none), and what stands above it; borrowed */
     uint64_t shown;            /* frames so far */
     bool turntable;            /* the camera goes round, ... */

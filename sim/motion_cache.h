@@ -1,0 +1,21 @@
+/* The skin's motion for programs that play it back: FILE.pc2 (point_cache.h) a sample a frame, and FILE.ply, the mesh that it moves, as it is at the first of
+ * them; each triangle has points of its own (skin_mesh.h). */
+#ifndef SIM_MOTION_CACHE_H
+#define SIM_MOTION_CACHE_H
+
+#include "sim/sim.h"
+
+struct motion_cache;
+
+/* `path` ends in .pc2; first: number of the first frame. `sim` is borrowed. Errors: STATUS_FILE, STATUS_NO_MEMORY, STATUS_RANGE. */
+enum status motion_cache_open(struct sim *sim, const char *path, uint64_t first, struct motion_cache **cache,
+                              struct error *err);
+
+/* Adds the state as it is. Errors: those of writing the mesh, with the first. */
+enum status motion_cache_add(struct motion_cache *cache, struct error *err);
+
+/* Ends it; frees the cache, whatever it returns. NULL is fine. Errors: STATUS_FILE. */
+enum status motion_cache_close(struct motion_cache *cache, struct error *err);
+void motion_cache_abandon(struct motion_cache *cache); /* the older file stays; NULL is fine */
+
+#endif
