@@ -106,8 +106,8 @@ static void change_share(void *context, size_t index, unsigned worker)
     c->share[index] = sum;
 }
 
-struct areas_change areas_change(struct sim *sim, const struct sim_balloon *balloon, const double origin[4],
-                                 const unsigned char *held, double (*dx)[4])
+struct areas_change areas_change(const struct sim *sim, const struct sim_balloon *balloon,
+                                 const double origin[4], const unsigned char *held, double (*dx)[4])
 {
     struct change c = {.sim = sim, .balloon = balloon, .held = held, .origin = origin, .dx = dx};
     threads_run(sim->pool, SHARES, change_share, &c);
@@ -172,17 +172,28 @@ void areas_product(struct sim *sim, const struct sim_balloon *balloon, const str
     sim_each_part(sim, product_part, &(struct product){balloon, pressure, change, held, a, dx, df});
 }
 
+double areas_size(const struct sim *sim, uint32_t triangle)
+{
+    double(*x)[4] = sim->position, twice[3];
+    const uint32_t *p = sim->triangle_point[triangle];
+    if (!sim->triangle_active[triangle])
+        return 0;
+    vec3_triangle(x[p[0]], x[p[1]], x[p[2]], twice);
+    return vec3_length(twice) / 2;
+}
+
 void areas_bound(const struct sim *sim, const struct sim_balloon *balloon, double pressure,
                  const struct guard_rows *rows)
 {
     for (uint32_t t = balloon->triangle_begin; t < balloon->triangle_end; t++) {
         const uint32_t *p = sim->triangle_point[t];
+        const double area = areas_size(sim, t);
         double length = 0;
         for (int k = 0; k < 3; k++)
             length += vec3_distance(sim->position[p[k]], sim->position[p[(k + 1) % 3]]);
-        for (int k = 0; k < 3 && sim->triangle_active[t]; k++)
+        for (int k = 0; k < 3 && sim->triangle_active[t]; k++) {
             rows->stiffness[p[k]] += fabs(pressure) / 6 * length;
+            rows->push[p[k]] += fabs(pressure) / 3 * area;
+        }
     }
-    for (uint32_t p = balloon->point_begin; p < balloon->point_end; p++)
-        rows->push[p] += fabs(pressure) / 6 * vec3_length(sim->normal[p]);
 }

@@ -32,15 +32,18 @@ void areas_push(struct sim *sim, const struct sim_balloon *balloon, const unsign
 struct areas_change {
     double volume, change;
 };
-struct areas_change areas_change(struct sim *sim, const struct sim_balloon *balloon, const double origin[4],
-                                 const unsigned char *held, double (*dx)[4]);
+struct areas_change areas_change(const struct sim *sim, const struct sim_balloon *balloon,
+                                 const double origin[4], const unsigned char *held, double (*dx)[4]);
 
 /* df += a times the change of the forces as points move by dx and the pressure changes by `change`; from positions alone. */
 void areas_product(struct sim *sim, const struct sim_balloon *balloon, const struct areas_pressure *pressure,
                    const struct areas_pressure *change, const unsigned char *held, double a, double (*dx)[4],
                    double (*df)[4]);
 
-/* Adds to rows (guard.h) how stiff a pressure of that size is: dF/dx at a corner of a triangle is p/6 times a side, crossed. */
+/* Of a triangle as its points are now; 0 where it is not active. */
+double areas_size(const struct sim *sim, uint32_t triangle);
+
+/* Adds to rows (guard.h), from positions alone, how stiff a pressure of that size is: dF/dx at a corner of a triangle is p/6 times a side, crossed. */
 void areas_bound(const struct sim *sim, const struct sim_balloon *balloon, double pressure,
                  const struct guard_rows *rows);
 

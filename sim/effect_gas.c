@@ -1,6 +1,7 @@
 #include "common/vec3.h"
 #include "sim/effects.h"
 #include "sim/gas.h"
+#include "sim/gas_torn.h"
 #include "sim/guard.h"
 #include "sim/vectors.h"
 
@@ -33,7 +34,7 @@ static void set_weights(struct gas *gas, const struct scene_gravity *gravity)
 }
 
 /* The volume as positions have it, whatever the last forces were. */
-static double volume_now(struct sim *sim, const struct sim_balloon *b)
+static double volume_now(const struct sim *sim, const struct sim_balloon *b)
 {
     double origin[4];
     origin_of(sim, b, origin);
@@ -54,6 +55,11 @@ static void fill(struct sim *sim, struct sim_balloon *b)
     gas->memory.neck_open = gas->scene->neck > 0 && gas->scene->neck_at <= 0;
 }
 
+static bool tears_along_cracks(const struct scene_balloon *balloon)
+{
+    return balloon->fracture.on && balloon->fracture.mode == SCENE_FRACTURE_TEAR;
+}
+
 static enum status open(struct sim *sim, struct sim_balloon *b, struct error *err)
 {
     struct gas *gas = b->gas = calloc(1, sizeof *gas);
@@ -70,6 +76,8 @@ static enum status open(struct sim *sim, struct sim_balloon *b, struct error *er
     enum status status = sim_add_scalars(sim, GAS_SCALARS, &gas->scalar, err);
     if (!status && gas->scene->neck > 0)
         status = gas_find_neck(sim, b, err);
+    if (!status && !tears_along_cracks(b->scene))
+        status = gas_torn_open(sim, b, err);
     if (!status)
         fill(sim, b);
     return status;
@@ -79,6 +87,7 @@ static void close(struct sim *sim, struct sim_balloon *b)
 {
     (void)sim;
     if (b->gas) {
+        gas_torn_close(b);
         free(b->gas->neck);
         free(b->gas->held);
     }
@@ -149,6 +158,9 @@ static struct areas_pressure pressure_of(const struct sim *sim, const struct sim
     return q;
 }
 
+/* Over that at rest: what the pressure is taken for where there is less. */
+static const double least_volume = 1e-9;
+
 static void apply(struct sim *sim, struct sim_balloon *b)
 {
     struct gas *gas = b->gas;
@@ -159,7 +171,7 @@ static void apply(struct sim *sim, struct sim_balloon *b)
     origin_of(sim, b, origin);
     gas_find_holes(sim, b);
     gas->volume = areas_volume(sim, b, held_of(gas), origin) + gas_fan_volume(&gas->holes, origin);
-    gas->volume = fmax(gas->volume, 1e-9 * gas->rest_volume); /* check() sees to what is below */
+    gas->volume = fmax(gas->volume, least_volume * gas->rest_volume); /* check() sees to what is below */
     gas->pressure = gas_pressure(gas_amount(sim, gas), gas->volume, sim->scalar[gas->scalar + GAS_ENTROPY],
                                  gas->g);
     const struct areas_pressure pressure = pressure_of(sim, b, gas->pressure, gas->volume);
@@ -190,9 +202,9 @@ static void let_all_go(struct sim *sim, struct sim_balloon *b)
 
 /* The gauge pressure that the bound counts with: a thousandth of the pressure at the least, so that a balloon that is filled from
  * nothing does not ask for a new one at every step. */
-static double gauge_to_bound(const struct gas *gas)
+static double gauge_to_bound(const struct gas *gas, double pressure)
 {
-    return fmax(fabs(gas->pressure - gas->scene->ambient), 1e-3 * gas->pressure);
+    return fmax(fabs(pressure - gas->scene->ambient), 1e-3 * pressure);
 }
 
 static bool is_bound_outdated(const struct gas *gas)
@@ -200,7 +212,7 @@ static bool is_bound_outdated(const struct gas *gas)
     const struct gas_memory *memory = &gas->memory;
     const double volume = gas->volume / memory->bound_volume,
                  pressure = gas->pressure / memory->bound_pressure,
-                 gauge = gauge_to_bound(gas) / memory->bound_gauge;
+                 gauge = gauge_to_bound(gas, gas->pressure) / memory->bound_gauge;
     return !(volume > 0.8 && volume < 1.25 && pressure > 0.8 && pressure < 1.25 && gauge < 1.5 &&
              gauge > 0.5);
 }
@@ -209,6 +221,8 @@ static void after(struct sim *sim, struct sim_balloon *b)
 {
     struct gas *gas = b->gas;
     struct gas_memory *memory = &gas->memory;
+    if (gas->torn && !memory->gone)
+        gas_torn_let_go(sim, b);
     if (!memory->neck_open && gas->scene->neck > 0 && sim->time >= gas->scene->neck_at) {
         memory->neck_open = 1;
         sim->changed = true;
@@ -262,22 +276,26 @@ static void product(struct sim *sim, struct sim_balloon *b, double a, double (*d
     areas_product(sim, b, &pressure, &d, held_of(gas), a, dx, df);
 }
 
-/* The stiffness of areas, and g p/V times a point's area vector times those of all others; both for half as much again. */
+/* The stiffness of areas, and g p/V times a point's area vector times those of all others; both for half as much again. From the state
+ * alone: what the last forces left may be that of another one. */
 static void bound(const struct sim *sim, const struct sim_balloon *b, const struct guard_rows *rows)
 {
     struct gas *gas = b->gas;
+    struct gas_memory *memory = &gas->memory;
     double all = 0;
-    if (gas->memory.gone)
+    if (memory->gone)
         return;
-    gas->memory.bound_volume = gas->volume;
-    gas->memory.bound_pressure = gas->pressure;
-    gas->memory.bound_gauge = gauge_to_bound(gas);
-    areas_bound(sim, b, 1.5 * gas->memory.bound_gauge, rows);
-    for (uint32_t p = b->point_begin; p < b->point_end; p++)
-        all += vec3_length(sim->normal[p]) / 6;
-    for (uint32_t p = b->point_begin; p < b->point_end; p++)
-        rows->stiffness[p] += 1.5 * gas->g * gas->pressure / gas->volume * all * vec3_length(sim->normal[p]) /
-                              6;
+    memory->bound_volume = fmax(volume_now(sim, b), least_volume * gas->rest_volume);
+    memory->bound_pressure = gas_pressure(gas_amount(sim, gas), memory->bound_volume,
+                                          sim->scalar[gas->scalar + GAS_ENTROPY], gas->g);
+    memory->bound_gauge = gauge_to_bound(gas, memory->bound_pressure);
+    areas_bound(sim, b, 1.5 * memory->bound_gauge, rows);
+    for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++)
+        all += areas_size(sim, t);
+    const double stiffness = 1.5 * gas->g * memory->bound_pressure / memory->bound_volume * all;
+    for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++)
+        for (int k = 0; k < 3; k++)
+            rows->stiffness[sim->triangle_point[t][k]] += stiffness * areas_size(sim, t) / 3;
 }
 
 static double energy(struct sim *sim, struct sim_balloon *b)

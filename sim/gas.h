@@ -24,7 +24,8 @@ struct gas {
     double gas_weight, air_weight;
     double down[3]; /* acceleration of gravity, where the air has weight */
     struct gas_holes holes;
-    uint32_t *neck; /* [neck_count] points that feel its thrust; owned */
+    struct gas_torn *torn; /* where edges let go (gas_torn.h); NULL: the skin tears along cracks */
+    uint32_t *neck;        /* [neck_count] points that feel its thrust; owned */
     uint32_t neck_count;
     unsigned char *held; /* [points] of the balloon: 0 where a piece has fallen off; owned */
 

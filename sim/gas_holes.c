@@ -1,6 +1,7 @@
 /* What closes a torn skin, and what gets out where it is open. */
 #include "common/vec3.h"
 #include "sim/gas.h"
+#include "sim/gas_torn.h"
 #include "sim/patch.h"
 
 #include <string.h>
@@ -14,6 +15,8 @@ void gas_find_holes(const struct sim *sim, const struct sim_balloon *balloon)
 {
     struct gas_holes *holes = &balloon->gas->holes;
     const struct gas_rims *rims = balloon->rims;
+    if (balloon->gas->torn)
+        gas_torn_follow(sim, balloon);
     holes->count = 0;
     if (!rims || rims->side_count == 0)
         return;
