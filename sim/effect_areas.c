@@ -2,11 +2,36 @@
 #include "common/vec3.h"
 #include "sim/areas.h"
 #include "sim/effects.h"
+#include "sim/limit_point.h"
 #include "sim/vectors.h"
+
+#include <stdlib.h>
 
 static bool wanted(const struct scene_balloon *balloon)
 {
     return balloon->pressure_on == SCENE_ON_AREAS && !balloon->gas.on;
+}
+
+static enum status open(struct sim *sim, struct sim_balloon *b, struct error *err)
+{
+    b->limit = malloc(sizeof *b->limit);
+    if (!b->limit)
+        return error_no_memory(err, "the limit point");
+    sim->bytes += sizeof *b->limit;
+    limit_point_open(sim, b, b->limit);
+    return STATUS_OK;
+}
+
+static void close(struct sim *sim, struct sim_balloon *b)
+{
+    (void)sim;
+    free(b->limit);
+    b->limit = NULL;
+}
+
+static void after(struct sim *sim, struct sim_balloon *b)
+{
+    limit_point_watch(sim, b, b->limit);
 }
 
 static struct areas_pressure pressure_of(const struct sim_balloon *b)
@@ -55,7 +80,10 @@ static void power(struct sim *sim, struct sim_balloon *b, double *dissipated, do
 const struct effect effect_areas = {.name = "pressure_on",
                                     .phase = EFFECT_FORCES,
                                     .wanted = wanted,
+                                    .open = open,
+                                    .close = close,
                                     .apply = apply,
+                                    .after = after,
                                     .product = product,
                                     .bound = bound,
                                     .power = power,

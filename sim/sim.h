@@ -34,6 +34,7 @@ struct pins;
 struct string;
 struct obstacles;
 struct contact;
+struct limit_point;
 struct gas_rims;
 struct topology;
 struct fracture;
@@ -73,6 +74,7 @@ struct sim_balloon {
     struct gas *gas;           /* what is sealed in (effect_gas.h); NULL: nothing, the pressure is given */
     struct pins *pins;         /* likewise what holds it (effect_pins.c), */
     struct string *string;     /* and what it is tied to (effect_string.c) */
+    struct limit_point *limit; /* of pressure that is given, on areas (limit_point.h) */
     struct gas_rims *rims;     /* of its holes, by whoever cuts the skin; NULL: there are none */
 };
 
