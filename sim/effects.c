@@ -116,8 +116,10 @@ void effects_run(struct sim *sim, enum effect_phase phase)
 enum status effects_settle(struct sim *sim, struct error *err)
 {
     enum status status = STATUS_OK;
-    for (size_t i = 0; i < sim->hook_count[EFFECT_MOVED] && !status; i++)
+    for (size_t i = 0; i < sim->hook_count[EFFECT_MOVED] && !status; i++) {
+        sim->swept = false;
         status = sim->hooks[EFFECT_MOVED][i].effect->settle(sim, err);
+    }
     return status;
 }
 

@@ -1,31 +1,37 @@
 /* The two Euler methods: one force a step, first order. */
 #include "sim/methods.h"
-#include "sim/rows.h"
+#include "sim/sweep.h"
 
 /* v += a dt, then x += v dt: velocity first. The update with which the paper's claims hold. */
-static void part_velocity_first(struct sim *sim, const struct sim_part *part, void *context)
+static void velocity_first(struct sim *sim, uint32_t begin, uint32_t end, double dt, struct sim_seen *seen)
 {
-    const double dt = *(double *)context, *mass = sim->mass;
     row *position = (row *)sim->position, *velocity = (row *)sim->velocity;
     const row *force = (const row *)sim->force;
-    for (uint32_t p = part->point_begin; p < part->point_end; p++) {
-        const row v = velocity[p] + force[p] * (dt / mass[p]);
-        velocity[p] = v;
-        position[p] += v * dt;
+    const double *mass = sim->mass;
+    struct sim_seen now = *seen;
+    for (uint32_t p = begin; p < end; p++) {
+        const row before = position[p];
+        velocity[p] += force[p] * (dt / mass[p]);
+        position[p] += velocity[p] * dt;
+        sweep_see(&now, mass[p], &position[p], &velocity[p], &before);
     }
+    *seen = now;
 }
 
 /* x += v dt, then v += a dt with the acceleration at the old place: the textbook's Euler. */
-static void part_position_first(struct sim *sim, const struct sim_part *part, void *context)
+static void position_first(struct sim *sim, uint32_t begin, uint32_t end, double dt, struct sim_seen *seen)
 {
-    const double dt = *(double *)context, *mass = sim->mass;
     row *position = (row *)sim->position, *velocity = (row *)sim->velocity;
     const row *force = (const row *)sim->force;
-    for (uint32_t p = part->point_begin; p < part->point_end; p++) {
-        const row v = velocity[p];
-        position[p] += v * dt;
-        velocity[p] = v + force[p] * (dt / mass[p]);
+    const double *mass = sim->mass;
+    struct sim_seen now = *seen;
+    for (uint32_t p = begin; p < end; p++) {
+        const row before = position[p];
+        position[p] += velocity[p] * dt;
+        velocity[p] += force[p] * (dt / mass[p]);
+        sweep_see(&now, mass[p], &position[p], &velocity[p], &before);
     }
+    *seen = now;
 }
 
 static void advance_scalars(struct sim *sim, double dt)
@@ -37,8 +43,7 @@ static void advance_scalars(struct sim *sim, double dt)
 static enum status symplectic_euler(struct sim *sim, double dt, struct error *err)
 {
     (void)err;
-    sim_forces(sim);
-    sim_each_part(sim, part_velocity_first, &dt);
+    sim_forces_then(sim, &(struct sim_move){velocity_first, dt});
     advance_scalars(sim, dt);
     return STATUS_OK;
 }
@@ -46,8 +51,7 @@ static enum status symplectic_euler(struct sim *sim, double dt, struct error *er
 static enum status explicit_euler(struct sim *sim, double dt, struct error *err)
 {
     (void)err;
-    sim_forces(sim);
-    sim_each_part(sim, part_position_first, &dt);
+    sim_forces_then(sim, &(struct sim_move){position_first, dt});
     advance_scalars(sim, dt);
     return STATUS_OK;
 }

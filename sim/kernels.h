@@ -1,7 +1,6 @@
 /*
- * The inner loops of a step, parts 1 to 4 of the paper's section 3.5 (forces.c), compiled once for each precision and each
- * set of instructions. All tables of one precision give the same bits: sums are written out in their order, and nothing is
- * contracted.
+ * The inner loops of a step, parts 1 to 4 of the paper's section 3.5 (forces.c), compiled once for each set of instructions. All
+ * tables give the same bits: sums are written out in their order, and nothing is contracted.
  */
 #ifndef SIM_KERNELS_H
 #define SIM_KERNELS_H

@@ -29,6 +29,14 @@ static inline lanes lanes_all(double number)
     return (lanes){number, number, number, number};
 }
 
+/* Four numbers that follow each other in memory. */
+static inline lanes lanes_at(const double *number)
+{
+    typedef double unaligned
+        __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double)), may_alias));
+    return (lanes) * (const unaligned *)number;
+}
+
 static inline lanes lanes_select(lane_mask mask, lanes where_true, lanes where_false)
 {
     return (lanes)(((lane_mask)where_true & mask) | ((lane_mask)where_false & ~mask));

@@ -1,7 +1,7 @@
 /* Who works on what: each balloon's points in as many parts as there are workers. */
 #include "common/array.h"
 #include "common/threads.h"
-#include "sim/sim.h"
+#include "sim/sweep.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -91,6 +91,11 @@ static bool fill_part(struct sim *sim, struct sim_part *part)
     return true;
 }
 
+static bool has_room(const struct sim_balloon *b)
+{
+    return b->point_room > b->point_end;
+}
+
 /* The part that works on a torn balloon's new points: nothing as yet, but with room for all that can come in. */
 static bool make_tail(struct sim *sim, struct sim_part *part)
 {
@@ -98,7 +103,7 @@ static bool make_tail(struct sim *sim, struct sim_part *part)
     const struct sim_balloon *b = part->balloon;
     const uint64_t most = (uint64_t)FAN * (b->point_room - b->point_end) + 1;
     const uint32_t edges = b->edge_end - b->edge_begin, triangles = b->triangle_end - b->triangle_begin;
-    part->point_begin = part->point_end = b->point_end;
+    part->point_begin = part->point_end = part->inner_begin = part->inner_end = b->point_end;
     part->edge_begin = part->edge_end = b->edge_end;
     part->triangle_begin = part->triangle_end = b->triangle_end;
     part->edge_in_room = most < edges ? (uint32_t)most : edges;
@@ -214,6 +219,28 @@ static uint32_t coming_end(const struct sim *sim, const struct sim_part *part)
     return end;
 }
 
+/* Where points begin that edges or triangles have which reach into higher parts. */
+static uint32_t leaving_begin(const struct sim *sim, const struct sim_part *part)
+{
+    uint32_t begin = part->point_end;
+    for (const struct sim_chunk *c = part->chunks; c < part->chunks + part->chunk_count; c++) {
+        if (c->edge_inner_end < c->edge_end && sim->edge_point[c->edge_inner_end][0] < begin)
+            begin = sim->edge_point[c->edge_inner_end][0];
+        if (c->triangle_inner_end < c->triangle_end &&
+            lowest(sim->triangle_point[c->triangle_inner_end], 3) < begin)
+            begin = lowest(sim->triangle_point[c->triangle_inner_end], 3);
+    }
+    return begin;
+}
+
+/* None where a cut may give any point a neighbour in another part. */
+static void find_inner(const struct sim *sim, struct sim_part *part)
+{
+    const bool torn = has_room(part->balloon);
+    part->inner_begin = torn ? part->point_begin : coming_end(sim, part);
+    part->inner_end = torn ? part->point_begin : larger(part->inner_begin, leaving_begin(sim, part));
+}
+
 static void fill_chunk(const struct sim *sim, const struct sim_part *part, struct sim_chunk *c)
 {
     const uint32_t *edges = sim->edge_point[0], *triangles = sim->triangle_point[0];
@@ -249,6 +276,7 @@ static bool make_chunks(struct sim *sim, struct sim_part *part)
             here.clear_end = larger(here.clear_end, coming_end(sim, part));
         part->chunks[i] = here;
     }
+    find_inner(sim, part);
     sim->bytes += part->chunk_count * sizeof *part->chunks;
     return true;
 }
@@ -266,11 +294,6 @@ static bool make_parts(struct sim *sim, const struct sim_balloon *b, struct sim_
     return good;
 }
 
-static bool has_room(const struct sim_balloon *b)
-{
-    return b->point_room > b->point_end;
-}
-
 enum status parts_open(struct sim *sim, struct error *err)
 {
     const unsigned workers = threads_workers(sim->pool);
@@ -280,7 +303,8 @@ enum status parts_open(struct sim *sim, struct error *err)
         sim->part_count += workers + has_room(b);
     sim->parts = sim_table(sim, sim->part_count, sizeof *sim->parts);
     sim->overlong = array_new(sim->part_count, sizeof *sim->overlong);
-    bool good = sim->parts && sim->overlong;
+    sim->seen = sim_table(sim, sim->part_count, sizeof *sim->seen);
+    bool good = sim->parts && sim->overlong && sim->seen;
     struct sim_part *part = sim->parts;
     for (struct sim_balloon *b = sim->balloons; b < end && good; b++) {
         for (unsigned i = 0; i < workers + has_room(b); i++)
@@ -300,6 +324,7 @@ void parts_close(struct sim *sim)
     }
     free(sim->parts);
     free(sim->overlong);
+    free(sim->seen);
     threads_close(sim->pool);
 }
 

@@ -15,6 +15,7 @@ struct sim_balloon;
 struct sim_part {
     struct sim_balloon *balloon;
     uint32_t point_begin, point_end;
+    uint32_t inner_begin, inner_end;       /* of them no other part reads these */
     uint32_t edge_begin, edge_end;         /* the edges whose lower point is here */
     uint32_t triangle_begin, triangle_end; /* the triangles whose lowest point is here */
     uint32_t *edge_in, edge_in_count; /* edges of lower parts that end here, in order, new ones before them */

@@ -27,6 +27,7 @@
 struct sim;
 struct sim_jacobian;
 struct sim_kernels;
+struct sim_seen;
 struct guard;
 struct hand;
 struct gas;
@@ -162,7 +163,9 @@ struct sim {
     struct threads *pool;   /* NULL: the caller alone */
     struct sim_part *parts; /* [part_count] of each balloon one a worker */
     size_t part_count;
-    uint32_t *overlong; /* [part_count] edges past the threshold, by the last break_edges() */
+    uint32_t *overlong;    /* [part_count] edges past the threshold, by the last break_edges() */
+    struct sim_seen *seen; /* [part_count] by the last sweep (sweep.h), */
+    bool swept;            /*    with which this step ended, and nothing has moved a point since */
     const struct sim_kernels *kernels;
     struct {
         void *position, *velocity, *force, *normal; /* [point_count] what the kernels work on */

@@ -6,6 +6,7 @@
 #include "sim/kernels.h"
 #include "sim/ledger.h"
 #include "sim/membrane_kernels.h"
+#include "sim/sweep.h"
 #include "sim/vectors.h"
 
 #include <math.h>
@@ -28,10 +29,10 @@ static void skin_forces(struct sim *sim, const struct sim_part *part, const stru
 }
 
 /* Chunk by chunk, so that a large balloon goes through the caches once. */
-static void part_forces(struct sim *sim, const struct sim_part *part, void *context)
+static void part_forces(struct sim *sim, const struct sim_part *part, void *move)
 {
-    (void)context;
     const struct sim_kernels *k = sim->kernels;
+    sweep_begin(sim, part);
     for (const struct sim_chunk *c = part->chunks; c < part->chunks + part->chunk_count; c++) {
         k->clear_points(sim, c); /* 1  forces and normals are 0             */
         if (c == part->chunks)
@@ -39,6 +40,8 @@ static void part_forces(struct sim *sim, const struct sim_part *part, void *cont
         skin_forces(sim, part, c);      /* 2  springs and dampers, or a membrane   */
         kernels_press(k, sim, part, c); /* 3  face normals, added to the points    */
                                         /* 4  pressure along each point's normal   */
+        if (move)
+            sweep_chunk(sim, part, c, move); /*    these are all: points move on          */
     }
 }
 
@@ -51,6 +54,19 @@ void sim_forces(struct sim *sim)
         ledger_rates(sim); /* what all this does to the energy, where accounts are kept */
 }
 
+void sim_forces_then(struct sim *sim, struct sim_move *move)
+{
+    if (sim->hook_count[EFFECT_FORCES] == 0 && !sim->ledger.on) {
+        sim->evaluations++;
+        sim_each_part(sim, part_forces, move);
+        sim_each_part(sim, sweep_border, move);
+    } else {
+        sim_forces(sim);
+        sim_each_part(sim, sweep_part, move);
+    }
+    sim->swept = true;
+}
+
 static void count_overlong(struct sim *sim, const struct sim_part *part, void *context)
 {
     (void)context;
@@ -60,6 +76,8 @@ static void count_overlong(struct sim *sim, const struct sim_part *part, void *c
 /* Part 2: edges longer than the threshold let go. Most steps have none. */
 static void break_edges(struct sim *sim)
 {
+    if (sweep_saw_none_overlong(sim))
+        return;
     sim_each_part(sim, count_overlong, NULL);
     for (size_t i = 0; i < sim->part_count; i++) {
         const struct sim_part *part = &sim->parts[i];
@@ -137,6 +155,7 @@ static enum status advance(struct sim *sim, struct error *err)
     sim->due = is_adaptive(sim) ? next_due(sim) : INFINITY;
     const double left = sim->due - sim->time;
     sim->taken = left <= sim->step * (1 + 1e-9) ? left : sim->step; /* no sliver of a step is left behind */
+    sim->swept = false;
     enum status status = sim->integrator->advance(sim, sim->taken, err);
     if (status)
         return status;

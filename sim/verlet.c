@@ -12,6 +12,7 @@
  * The acceleration is remembered from step to step; it is asked anew after everything that makes forces jump.
  */
 #include "sim/methods.h"
+#include "sim/sweep.h"
 #include "sim/vectors.h"
 
 #include <stdlib.h>
@@ -60,17 +61,19 @@ static void part_predict(struct sim *sim, const struct sim_part *part, void *con
 }
 
 /* The second half: v + dt a0 becomes v + dt/2 (a0 + a1). */
-static void part_correct(struct sim *sim, const struct sim_part *part, void *context)
+static void correct(struct sim *sim, uint32_t begin, uint32_t end, double dt, struct sim_seen *seen)
 {
-    const double half = *(double *)context / 2;
-    for (uint32_t p = part->point_begin; p < part->point_end; p++) {
-        const double inverse = 1 / sim->mass[p];
-        for (int i = 0; i < 4; i++) {
-            const double before = sim->scratch[0][p][i], now = sim->force[p][i] * inverse;
-            sim->velocity[p][i] += half * (now - before);
-            sim->scratch[0][p][i] = now;
-        }
+    row *velocity = (row *)sim->velocity, *acceleration = (row *)sim->scratch[0];
+    const row *force = (const row *)sim->force, *position = (const row *)sim->position;
+    const double *mass = sim->mass;
+    struct sim_seen now = *seen;
+    for (uint32_t p = begin; p < end; p++) {
+        const row a = force[p] * (1 / mass[p]);
+        velocity[p] += dt / 2 * (a - acceleration[p]);
+        acceleration[p] = a;
+        sweep_see(&now, mass[p], &position[p], &velocity[p], &position[p]);
     }
+    *seen = now;
 }
 
 /* The same for scalars: Heun's rule. */
@@ -91,8 +94,7 @@ static enum status advance(struct sim *sim, double dt, struct error *err)
     verlet->remembers = 1;
     sim_each_part(sim, part_predict, &dt);
     advance_scalars(sim, dt, 1, 0);
-    sim_forces(sim);
-    sim_each_part(sim, part_correct, &dt);
+    sim_forces_then(sim, &(struct sim_move){correct, dt});
     advance_scalars(sim, dt, -0.5, 0.5);
     for (uint32_t i = 0; i < sim->scalar_count; i++)
         sim->scalar_scratch[0][i] = sim->scalar_rate[i];
