@@ -135,6 +135,13 @@ struct scene_plasticity {
     double yield, hardening; /* force; force/length */
 };
 
+struct scene_bending {
+    bool on;
+    unsigned line;
+    double stiffness, damping; /* force length; s */
+    int rest;                  /* enum scene_rest */
+};
+
 struct scene_membrane {
     bool on;
     unsigned line;
@@ -164,6 +171,7 @@ struct scene_balloon {
     struct scene_plasticity plasticity;
     struct scene_fracture fracture;
     struct scene_membrane membrane;
+    struct scene_bending bending;
     struct scene_gas gas;
     struct scene_tube tube;
     struct scene_pins pins;
@@ -239,6 +247,7 @@ extern const char *const scene_shape_names[];
 extern const char *const scene_stiffness_names[];
 extern const char *const scene_threshold_of_names[];
 extern const char *const scene_law_names[];
+extern const char *const scene_rest_names[];
 enum { SCENE_SYMPLECTIC_EULER }; /* the first of the integrators: the paper's */
 enum scene_guard { SCENE_GUARD_SUBSTEP, SCENE_GUARD_REFUSE, SCENE_GUARD_OFF };
 enum scene_shape { SCENE_SPHERE, SCENE_BOX };
@@ -248,6 +257,7 @@ enum scene_style { SCENE_LATEX, SCENE_PAPER };
 enum scene_order { SCENE_ORDER_NONE, SCENE_ORDER_SORT, SCENE_ORDER_PEEL, SCENE_ORDER_LIST };
 enum scene_stiffness { SCENE_UNIFORM, SCENE_COTANGENT };
 enum scene_threshold_of { SCENE_OF_MEAN, SCENE_OF_EDGE };
+enum scene_rest { SCENE_AS_MESHED, SCENE_FLAT };
 enum scene_law { SCENE_NEO_HOOKEAN, SCENE_MOONEY_RIVLIN, SCENE_GENT, SCENE_OGDEN };
 enum scene_fracture_mode { SCENE_FRACTURE_TEAR, SCENE_FRACTURE_PAPER };
 enum scene_stereo {

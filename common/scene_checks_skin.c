@@ -60,9 +60,22 @@ enum status scene_check_fracture(const struct scene *scene, size_t number, struc
     return STATUS_OK;
 }
 
+/* Hinges are no constraints of its kind, and as forces from outside they would be moved with steps that suit nobody. */
+static enum status check_bending(const struct scene *scene, size_t number, struct error *err)
+{
+    const struct scene_bending *block = &scene->balloons[number].bending;
+    if (!block->on || strcmp(scene_integrator_names[scene->time.integrator], "xpbd"))
+        return STATUS_OK;
+    return scene_contradiction(scene, number, "bending", block->line, err,
+                               "time.integrator \"xpbd\" moves springs only; take \"auto\"");
+}
+
 enum status scene_check_membrane(const struct scene *scene, size_t number, struct error *err)
 {
     const struct scene_balloon *b = &scene->balloons[number];
+    const enum status status = check_bending(scene, number, err);
+    if (status)
+        return status;
     if (!b->membrane.on)
         return check_viscosity(scene, number, err);
     if (!(b->membrane.thickness > 0))

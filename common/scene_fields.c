@@ -30,6 +30,7 @@ const char *const scene_style_names[] = {"latex", "paper", NULL};
 const char *const scene_order_names[] = {"none", "sort", "peel", "list", NULL};
 const char *const scene_stiffness_names[] = {"uniform", "cotangent", NULL};
 const char *const scene_threshold_of_names[] = {"mean", "edge", NULL};
+const char *const scene_rest_names[] = {"as_meshed", "flat", NULL};
 const char *const scene_law_names[] = {"neo-hookean", "mooney-rivlin", "gent", "ogden", NULL};
 
 #define CHOICES_NUMBER(key) NULL
@@ -62,6 +63,7 @@ const char *const scene_law_names[] = {"neo-hookean", "mooney-rivlin", "gent", "
 #define NEEDLES_ROW(...)          ROW(scene_needles, __VA_ARGS__)
 #define CONTACT_ROW(...)          ROW(scene_contact, __VA_ARGS__)
 #define MEMBRANE_ROW(...)         ROW(scene_membrane, __VA_ARGS__)
+#define BENDING_ROW(...)          ROW(scene_bending, __VA_ARGS__)
 #define VISCOSITY_ROW(...)        ROW(scene_viscosity, __VA_ARGS__)
 #define PLASTICITY_ROW(...)       ROW(scene_plasticity, __VA_ARGS__)
 #define FRACTURE_ROW(...)         ROW(scene_fracture, __VA_ARGS__)
@@ -84,6 +86,7 @@ static const struct scene_field string_fields[] = {SCENE_STRING_FIELDS(STRING_RO
 static const struct scene_field gravity_fields[] = {SCENE_GRAVITY_FIELDS(GRAVITY_ROW)};
 static const struct scene_field drag_fields[] = {SCENE_DRAG_FIELDS(DRAG_ROW)};
 static const struct scene_field membrane_fields[] = {SCENE_MEMBRANE_FIELDS(MEMBRANE_ROW)};
+static const struct scene_field bending_fields[] = {SCENE_BENDING_FIELDS(BENDING_ROW)};
 static const struct scene_field viscosity_fields[] = {SCENE_VISCOSITY_FIELDS(VISCOSITY_ROW)};
 static const struct scene_field plasticity_fields[] = {SCENE_PLASTICITY_FIELDS(PLASTICITY_ROW)};
 static const struct scene_field fracture_fields[] = {SCENE_FRACTURE_FIELDS(FRACTURE_ROW)};
@@ -109,6 +112,7 @@ const struct scene_block scene_blocks[] = {
      "Springs that slip when they are pulled too hard, for good"},
     {"membrane", "balloons", false, FIELDS(membrane_fields), EFFECT(membrane),
      "The skin as a membrane of rubber, in place of springs"},
+    {"bending", "balloons", false, FIELDS(bending_fields), EFFECT(bending), "The skin resists being bent"},
     {"gas", "balloons", false, FIELDS(gas_fields), EFFECT(gas),
      "What is sealed in, in place of a given pressure"},
     {"tube", "balloons", false, FIELDS(tube_fields), EFFECT(tube), "Joins the gas of two balloons"},

@@ -176,6 +176,15 @@
     X(hardening, NUMBER, 0, 1e12, "0", "force/length", 0, "by which that rises with the way it has slipped", \
       "paper, figure 1")
 
+#define SCENE_BENDING_FIELDS(X)                                                                            \
+    X(stiffness, NUMBER, 0, 1e12, "1", "force length", 0,                                                  \
+      "energy of bent skin is half of it x curvature^2 x area; rubber has shear_modulus thickness^3 / 3",  \
+      "Grinspun et al. 2003")                                                                              \
+    X(rest, CHOICE, 0, 0, "\"as_meshed\"", "", 0, "the shape in which no skin is bent: the mesh, or flat", \
+      "")                                                                                                  \
+    X(damping, NUMBER, 0, 1e6, "0", "s", 0,                                                                \
+      "against the speed of bending: in that time an overdamped bend goes back to 1/e", "Kelvin and Voigt")
+
 #define SCENE_MEMBRANE_FIELDS(X)                                                                          \
     X(law, CHOICE, 0, 0, "\"neo-hookean\"", "", 0, "how stress follows stretch", "Ogden 1972")            \
     X(shear_modulus, NUMBER, 1e-9, 1e15, "20", "force/length^2", 0, "of the rubber, at small strain", "") \

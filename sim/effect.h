@@ -7,6 +7,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 struct sim;
 struct sim_balloon;
@@ -47,6 +48,9 @@ struct effect {
     enum status (*check)(struct sim *sim, struct sim_balloon *balloon, struct error *err);
     double (*energy)(struct sim *sim, struct sim_balloon *balloon);
     void (*power)(struct sim *sim, struct sim_balloon *balloon, double *dissipated, double *work);
+    /* Likewise: what goes for good as an active edge lets go or is cut, or an active triangle goes. NULL: nothing. */
+    double (*edge_energy)(const struct sim *sim, const struct sim_balloon *balloon, uint32_t edge);
+    double (*triangle_energy)(const struct sim *sim, const struct sim_balloon *balloon, uint32_t triangle);
     /* EFFECT_FORCES: adds to df a K dx + b D dv (jacobian.h), the derivatives of its own forces at the current state. NULL:
      * its forces depend on neither positions nor velocities. */
     void (*product)(struct sim *sim, struct sim_balloon *balloon, double a, double (*dx)[4], double b,
@@ -76,10 +80,13 @@ void effects_close(struct sim *sim);
 void effects_run(struct sim *sim, enum effect_phase phase);
 enum status effects_settle(struct sim *sim, struct error *err); /* EFFECT_MOVED */
 
-/* Of all effects together (struct effect): whether all can go on, their blocks, the energy that they hold, and their powers, which are added. */
+/* Of all effects together (struct effect): whether all can go on, their blocks, the energy that they hold, their powers, which are added,
+ * and what goes with an edge or a triangle. */
 enum status effects_check(struct sim *sim, struct error *err);
 size_t effects_blocks(struct sim *sim, struct sim_block *blocks);
 double effects_energy(struct sim *sim);
 void effects_power(struct sim *sim, double *dissipated, double *work);
+double effects_edge_energy(const struct sim *sim, uint32_t edge);
+double effects_triangle_energy(const struct sim *sim, uint32_t triangle);
 
 #endif

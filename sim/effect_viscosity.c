@@ -131,14 +131,18 @@ static void bound(const struct sim *sim, const struct sim_balloon *b, const stru
                                                           sim->current_spring_const[e];
 }
 
+static double edge_energy(const struct sim *sim, const struct sim_balloon *b, uint32_t e)
+{
+    const struct arm arm = arm_of(sim, b, e);
+    return arm.constant * arm.elongation * arm.elongation / 2;
+}
+
 static double energy(struct sim *sim, struct sim_balloon *b)
 {
     double sum = 0;
-    for (uint32_t e = b->edge_begin; e < b->edge_begin + b->arm_count; e++) {
-        const struct arm arm = arm_of(sim, b, e);
+    for (uint32_t e = b->edge_begin; e < b->edge_begin + b->arm_count; e++)
         if (sim->edge_active[e])
-            sum += arm.constant * arm.elongation * arm.elongation / 2;
-    }
+            sum += edge_energy(sim, b, e);
     return sum;
 }
 
@@ -158,4 +162,5 @@ const struct effect effect_viscosity = {.name = "viscosity",
                                         .bound = bound,
                                         .energy = energy,
                                         .power = power,
+                                        .edge_energy = edge_energy,
                                         .source = "paper, figure 1; Terzopoulos and Fleischer 1988"};

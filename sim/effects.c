@@ -7,6 +7,7 @@ const struct effect *const effects[] = {
     &effect_spring_by_height,
     &effect_rip,
     &effect_membrane,
+    &effect_bending,
     &effect_viscosity,
     &effect_plasticity,
     &effect_areas,
@@ -167,4 +168,27 @@ void effects_power(struct sim *sim, double *dissipated, double *work)
         for (size_t i = 0; i < sim->hook_count[phase]; i++)
             if (sim->hooks[phase][i].effect->power)
                 sim->hooks[phase][i].effect->power(sim, sim->hooks[phase][i].balloon, dissipated, work);
+}
+
+double effects_edge_energy(const struct sim *sim, uint32_t edge)
+{
+    double energy = 0;
+    for (size_t i = 0; i < sim->hook_count[EFFECT_FORCES]; i++) {
+        const struct effect_hook *hook = &sim->hooks[EFFECT_FORCES][i];
+        if (hook->effect->edge_energy && edge >= hook->balloon->edge_begin && edge < hook->balloon->edge_end)
+            energy += hook->effect->edge_energy(sim, hook->balloon, edge);
+    }
+    return energy;
+}
+
+double effects_triangle_energy(const struct sim *sim, uint32_t triangle)
+{
+    double energy = 0;
+    for (size_t i = 0; i < sim->hook_count[EFFECT_FORCES]; i++) {
+        const struct effect_hook *hook = &sim->hooks[EFFECT_FORCES][i];
+        if (hook->effect->triangle_energy && triangle >= hook->balloon->triangle_begin &&
+            triangle < hook->balloon->triangle_end)
+            energy += hook->effect->triangle_energy(sim, hook->balloon, triangle);
+    }
+    return energy;
 }

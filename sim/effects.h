@@ -8,6 +8,7 @@ extern const struct effect effect_spring_by_height;
 extern const struct effect effect_rip;
 extern const struct effect effect_fracture;
 extern const struct effect effect_membrane;
+extern const struct effect effect_bending;
 extern const struct effect effect_viscosity;
 extern const struct effect effect_plasticity;
 extern const struct effect effect_areas;

@@ -67,6 +67,11 @@ static inline lanes lanes_dot(struct lanes3 a, struct lanes3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+static inline struct lanes3 lanes_cross(struct lanes3 a, struct lanes3 b)
+{
+    return (struct lanes3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
 static inline struct lanes3 lanes_sum(lanes s, struct lanes3 a, lanes t, struct lanes3 b)
 {
     return (struct lanes3){s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z};

@@ -40,6 +40,7 @@ struct gas_rims;
 struct topology;
 struct fracture;
 struct membrane;
+struct bending;
 struct threads;
 
 /* A piece of the state: bytes that belong to sim. */
@@ -70,6 +71,7 @@ struct sim_balloon {
     double *slip;  /* [slip_count] of its edges, where springs slip (effect_plasticity.c); owned */
     uint32_t slip_count;
     struct membrane *membrane; /* what acts in place of the springs (membrane.h); NULL: the springs */
+    struct bending *bending;   /* what resists being bent (bending.h); NULL: nothing */
     struct fracture *fracture; /* where and when the skin tears (fracture.h); NULL: as the paper has it */
     struct topology *topology; /* and how (topology.h) */
     struct gas *gas;           /* what is sealed in (effect_gas.h); NULL: nothing, the pressure is given */
@@ -107,7 +109,7 @@ struct sim_ledger {
     uint32_t first; /* of its own scalars, the last ones: they only record; the state are those before */
     struct sim_account {
         double begin;    /* kinetic and elastic energy when the accounts were opened */
-        double fracture; /* what springs held when they let go */
+        double fracture; /* what springs held when they let go, and the skin where it was cut */
         double user;     /* what changes of springs added */
         double contact;  /* what obstacles and contact took */
     } account;
@@ -274,7 +276,7 @@ static inline double sim_spring_energy(const struct sim *sim, uint32_t edge)
 static inline void sim_break_edge(struct sim *sim, uint32_t edge)
 {
     if (sim->ledger.on)
-        sim->ledger.account.fracture += sim_spring_energy(sim, edge);
+        sim->ledger.account.fracture += sim_spring_energy(sim, edge) + effects_edge_energy(sim, edge);
     sim->broken_length[edge] = sim_edge_length(sim, edge);
     sim->edge_active[edge] = 0;
     sim->edges_broke = sim->changed = true;

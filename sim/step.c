@@ -89,14 +89,11 @@ static void break_edges(struct sim *sim)
     }
 }
 
-/* What a membrane held there is gone with it. */
+/* What the skin held there is gone with it. */
 static void let_triangle_go(struct sim *sim, uint32_t triangle)
 {
-    const struct sim_balloon *b = sim->balloons;
-    while (triangle >= b->triangle_end)
-        b++;
-    if (sim->ledger.on && b->membrane)
-        sim->ledger.account.fracture += membrane_triangle_energy(sim, b, triangle);
+    if (sim->ledger.on)
+        sim->ledger.account.fracture += effects_triangle_energy(sim, triangle);
     sim->triangle_active[triangle] = 0;
 }
 

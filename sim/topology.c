@@ -352,6 +352,8 @@ void topology_cut(struct sim *sim, struct sim_balloon *b, uint32_t triangle, int
     struct topology *top = b->topology;
     const uint32_t edge = sim->triangle_edge[triangle][side], other = neighbours(b, triangle)[side];
     const int other_side = side_of(sim, other, edge);
+    if (sim->ledger.on)
+        sim->ledger.account.fracture += effects_edge_energy(sim, edge);
     neighbours(b, triangle)[side] = neighbours(b, other)[other_side] = MESH_NONE;
     const uint32_t sides[2][2] = {{triangle, (uint32_t)side}, {other, (uint32_t)other_side}};
     memcpy(top->rim + top->now.rims, sides, sizeof sides);

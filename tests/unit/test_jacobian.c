@@ -1,23 +1,8 @@
 /* Exact derivatives of the forces, against differences of the forces themselves. */
 #include "balloon.h"
-#include "common/random.h"
+#include "differences.h"
 #include "sim/jacobian.h"
 #include "sim/vectors.h"
-
-typedef double (*rows)[4];
-
-static rows new_rows(const struct sim *sim)
-{
-    const size_t bytes = sim->point_count * sizeof(double[4]);
-    return memset(aligned_alloc(32, bytes), 0, bytes);
-}
-
-static void fill(rows x, uint32_t count, double size, uint64_t *random)
-{
-    for (uint32_t p = 0; p < count; p++)
-        for (int i = 0; i < 3; i++)
-            x[p][i] += size * (2 * random_unit(random) - 1);
-}
 
 /* A balloon out of round and in motion, its points moved by up to `size`, a few of its edges and triangles gone. */
 static void open_shaken(struct balloon *b, unsigned level, double size, const char *const *changes)
@@ -38,51 +23,6 @@ static void close_shaken(struct balloon *b)
 {
     sim_jacobian_close(&b->sim);
     close_balloon(b);
-}
-
-/* The force at (x + s dx, v + s dv). */
-static void force_at(struct sim *sim, double s, rows dx, rows dv, rows force)
-{
-    const size_t bytes = sim->point_count * sizeof(double[4]);
-    rows x = malloc(bytes), v = malloc(bytes);
-    memcpy(x, sim->position, bytes);
-    memcpy(v, sim->velocity, bytes);
-    for (uint32_t p = 0; p < sim->point_count; p++)
-        for (int i = 0; i < 3; i++) {
-            sim->position[p][i] += s * dx[p][i];
-            sim->velocity[p][i] += s * dv[p][i];
-        }
-    sim_forces(sim);
-    memcpy(force, sim->force, bytes);
-    memcpy(sim->position, x, bytes);
-    memcpy(sim->velocity, v, bytes);
-    free(x);
-    free(v);
-}
-
-/* The derivative of the force along (dx, dv) by central differences over h and 2 h and Richardson's extrapolation:
- *     (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / (12 h),  wrong by h^4 f'''''/30 and by the rounding of f / h. */
-static void difference(struct sim *sim, double h, rows dx, rows dv, rows df)
-{
-    static const double place[4] = {1, -1, 2, -2}, weight[4] = {8, -8, -1, 1};
-    rows f = new_rows(sim);
-    memset(df, 0, sim->point_count * sizeof(double[4]));
-    for (int k = 0; k < 4; k++) {
-        force_at(sim, place[k] * h, dx, dv, f);
-        for (uint32_t p = 0; p < sim->point_count; p++)
-            for (int i = 0; i < 3; i++)
-                df[p][i] += weight[k] * f[p][i] / (12 * h);
-    }
-    free(f);
-}
-
-static double largest(rows a, uint32_t count)
-{
-    double most = 0;
-    for (uint32_t p = 0; p < count; p++)
-        for (int i = 0; i < 3; i++)
-            most = fmax(most, fabs(a[p][i]));
-    return most;
 }
 
 /* Products along random directions of size 1 must be the differences. Lengths are about 15 (level 2), so that with h = 1e-3

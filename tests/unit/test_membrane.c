@@ -1,12 +1,10 @@
 /* The membrane's forces against its energy, its derivatives against its forces, and both against what must not matter. */
 #include "balloon.h"
-#include "common/random.h"
+#include "differences.h"
 #include "sim/guard.h"
 #include "sim/jacobian.h"
 #include "sim/ledger.h"
 #include "sim/membrane.h"
-
-typedef double (*rows)[4];
 
 /* A small stiff balloon of radius 1, mu = h = 1 but for what a test changes. */
 #define RUBBER(...)                                                                           \
@@ -14,19 +12,6 @@ typedef double (*rows)[4];
              "balloons[0].membrane.thickness=1", "balloons[0].membrane.shear_modulus=1",      \
              "balloons[0].membrane.density=1",                                                \
              "balloons[0].membrane.viscosity=0" __VA_OPT__(, ) __VA_ARGS__)
-
-static rows new_rows(const struct sim *sim)
-{
-    const size_t bytes = sim->point_count * sizeof(double[4]);
-    return memset(aligned_alloc(32, bytes), 0, bytes);
-}
-
-static void fill(rows x, uint32_t count, double size, uint64_t *random)
-{
-    for (uint32_t p = 0; p < count; p++)
-        for (int i = 0; i < 3; i++)
-            x[p][i] += size * (2 * random_unit(random) - 1);
-}
 
 /* Stretched by these factors along x, y and z, shaken by a tenth of an edge, in motion, a few triangles gone. */
 static void deform(struct sim *sim, const double factor[3], double size)
@@ -45,16 +30,9 @@ static void deform(struct sim *sim, const double factor[3], double size)
 static const double shapes[][3] = {{1.7, 1.5, 1.6}, {2.5, 0.8, 0.7}, {0.8, 0.7, 0.9}, {0.4, 0.3, 0.3}};
 enum { SHAPES = sizeof shapes / sizeof shapes[0] };
 
-static double energy_at(struct sim *sim, double s, rows dx)
+static double elastic(struct sim *sim)
 {
-    for (uint32_t p = 0; p < sim->point_count; p++)
-        for (int i = 0; i < 3; i++)
-            sim->position[p][i] += s * dx[p][i];
-    const double energy = membrane_elastic(sim, sim->balloons);
-    for (uint32_t p = 0; p < sim->point_count; p++)
-        for (int i = 0; i < 3; i++)
-            sim->position[p][i] -= s * dx[p][i];
-    return energy;
+    return membrane_elastic(sim, sim->balloons);
 }
 
 /* -f . dx against (8 (E(h) - E(-h)) - (E(2h) - E(-2h))) / (12 h), h = 1e-5 of edges of .3. Rounding of E, near 20: 20 x 2e-16/h = 4e-10.
@@ -70,17 +48,9 @@ static void check_forces(const char *const *changes)
         memset(sim->velocity, 0, sim->point_count * sizeof *sim->velocity);
         rows dx = new_rows(sim);
         fill(dx, sim->point_count, 1, &random);
-        sim_forces(sim);
-        double work = 0, size = 0;
-        for (uint32_t p = 0; p < sim->point_count; p++)
-            for (int i = 0; i < 3; i++) {
-                work -= sim->force[p][i] * dx[p][i];
-                size += fabs(sim->force[p][i]);
-            }
-        const double h = 1e-5, difference = (8 * (energy_at(sim, h, dx) - energy_at(sim, -h, dx)) -
-                                             (energy_at(sim, 2 * h, dx) - energy_at(sim, -2 * h, dx))) /
-                                            (12 * h);
-        assert_near(work, difference, 1e-8 * size + 1e-9);
+        double size;
+        const double work = work_against(sim, dx, &size);
+        assert_near(work, energy_difference(sim, 1e-5, dx, elastic), 1e-8 * size + 1e-9);
         free(dx);
         close_balloon(&b);
     }
@@ -96,32 +66,10 @@ static void forces_are_the_slope_of_the_energy(void **state)
     check_forces(RUBBER("balloons[0].membrane.compression=1"));
 }
 
-static void force_at(struct sim *sim, double s, rows dx, rows dv, rows force)
-{
-    const size_t bytes = sim->point_count * sizeof(double[4]);
-    rows x = malloc(bytes), v = malloc(bytes);
-    memcpy(x, sim->position, bytes);
-    memcpy(v, sim->velocity, bytes);
-    for (uint32_t p = 0; p < sim->point_count; p++)
-        for (int i = 0; i < 3; i++) {
-            sim->position[p][i] += s * dx[p][i];
-            sim->velocity[p][i] += s * dv[p][i];
-        }
-    sim_forces(sim);
-    memcpy(force, sim->force, bytes);
-    memcpy(sim->position, x, bytes);
-    memcpy(sim->velocity, v, bytes);
-    free(x);
-    free(v);
-}
-
-/* As in test_jacobian.c: central differences over h and 2 h, with Richardson's extrapolation. With h = 1e-5 and edges of .3 what is left
- * out is below 1e-15 of f, and rounding is f x 2e-16/h = 2e-11 f; forces are below 100. A triangle whose wrinkling begins within 2 h is
- * not among these: with another seed one might be. */
+/* With h = 1e-5 and edges of .3 what is left out is below 1e-15 of f, and rounding is f x 2e-16/h = 2e-11 f; forces are below 100. A
+ * triangle whose wrinkling begins within 2 h is not among these: with another seed one might be. */
 static void check_products(const char *const *changes, const double shape[3])
 {
-    static const double place[4] = {1, -1, 2, -2}, weight[4] = {8, -8, -1, 1};
-    const double h = 1e-5;
     struct balloon b;
     uint64_t random = 5;
     open_balloon(&b, 2, changes);
@@ -129,28 +77,19 @@ static void check_products(const char *const *changes, const double shape[3])
     deform(sim, shape, 0.02);
     assert_ok(sim_jacobian_open(sim, &(struct error){0}), &(struct error){0});
     sim_linearise(sim);
-    rows dx = new_rows(sim), dv = new_rows(sim), exact = new_rows(sim), near = new_rows(sim),
-         f = new_rows(sim);
+    rows dx = new_rows(sim), dv = new_rows(sim), exact = new_rows(sim), near = new_rows(sim);
     fill(dx, sim->point_count, 1, &random);
     fill(dv, sim->point_count, 1, &random);
-    double largest = 1;
-    for (int k = 0; k < 4; k++) {
-        force_at(sim, place[k] * h, dx, dv, f);
-        for (uint32_t p = 0; p < sim->point_count; p++)
-            for (int i = 0; i < 3; i++) {
-                near[p][i] += weight[k] * f[p][i] / (12 * h);
-                largest = fmax(largest, fabs(f[p][i]));
-            }
-    }
+    difference(sim, 1e-5, dx, dv, near);
     sim_force_product(sim, 1, dx, 1, dv, exact);
+    const double size = fmax(largest(sim->force, sim->point_count), 1);
     for (uint32_t p = 0; p < sim->point_count; p++)
         for (int i = 0; i < 3; i++)
-            assert_near(exact[p][i], near[p][i], 1e-9 * largest);
+            assert_near(exact[p][i], near[p][i], 1e-9 * size);
     free(dx);
     free(dv);
     free(exact);
     free(near);
-    free(f);
     sim_jacobian_close(sim);
     close_balloon(&b);
 }

@@ -1,0 +1,338 @@
+/* Hinges: forces against their energy, derivatives against forces, what they keep, and what ends them. */
+#include "balloon.h"
+#include "differences.h"
+#include "sim/bending.h"
+#include "sim/guard.h"
+#include "sim/jacobian.h"
+#include "sim/ledger.h"
+#include "sim/topology.h"
+
+/* A balloon of radius 1 that nothing but its hinges acts on. */
+#define HINGES(...)                                                                                   \
+    SETTINGS("balloons[0].radius=1", "balloons[0].pressure=0", "balloons[0].threshold=1e300",         \
+             "balloons[0].spring=0", "balloons[0].damping=0", "balloons[0].point_mass=1",             \
+             "balloons[0].bending.stiffness=1", "time.integrator=symplectic-euler", "time.step=0.01", \
+             "time.end=1e6" __VA_OPT__(, ) __VA_ARGS__)
+
+/* Stretched by these factors, shaken by up to `size` of edges of .3, in motion, a few triangles and edges gone. */
+static void deform(struct sim *sim, const double factor[3], double size)
+{
+    uint64_t random = 3;
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        for (int i = 0; i < 3; i++)
+            sim->position[p][i] *= factor[i];
+    fill(sim->position, sim->point_count, size, &random);
+    fill(sim->velocity, sim->point_count, 1, &random);
+    for (uint32_t t = 0; t < sim->triangle_count; t += 13)
+        sim->triangle_active[t] = 0;
+    for (uint32_t e = 0; e < sim->edge_count; e += 17)
+        sim->edge_active[e] = 0;
+}
+
+/* Blown up; out of shape; crumpled, with folds past a right angle; flattened, with triangles that are crushed. */
+static const struct {
+    double factor[3], size;
+} shapes[] = {
+    {{1.7, 1.5, 1.6}, 0.02}, {{2.5, 0.8, 0.7}, 0.05}, {{0.8, 0.7, 0.9}, 0.25}, {{0.5, 0.4, 0.05}, 0.03}};
+enum { SHAPES = sizeof shapes / sizeof shapes[0] };
+
+static double energy_of(struct sim *sim)
+{
+    return effects_energy(sim);
+}
+
+/* h = 1e-6 of edges of .3, of which the crushed ones' heights are some .01: h^4 f'''''/30 is below 1e-16 f; rounding of E, below 100:
+ * 100 x 2e-16/h = 2e-8. A triangle that is crushed within 2 h would jump in E''. */
+static void forces_are_the_slope_of_the_energy(void **state)
+{
+    (void)state;
+    for (int flat = 0; flat < 2; flat++)
+        for (int k = 0; k < SHAPES; k++) {
+            struct balloon b;
+            uint64_t random = 9;
+            double size;
+            open_balloon(&b, 2, flat ? HINGES("balloons[0].bending.rest=flat") : HINGES());
+            deform(&b.sim, shapes[k].factor, shapes[k].size);
+            rows dx = new_rows(&b.sim);
+            fill(dx, b.sim.point_count, 1, &random);
+            const double work = work_against(&b.sim, dx, &size);
+            assert_near(work, energy_difference(&b.sim, 1e-6, dx, energy_of), 1e-8 * size + 3e-8);
+            assert_true(size > 1);
+            free(dx);
+            close_balloon(&b);
+        }
+}
+
+static void check_products(const char *const *changes, int shape)
+{
+    struct balloon b;
+    uint64_t random = 5;
+    open_balloon(&b, 2, changes);
+    struct sim *sim = &b.sim;
+    deform(sim, shapes[shape].factor, shapes[shape].size);
+    assert_ok(sim_jacobian_open(sim, &(struct error){0}), &(struct error){0});
+    sim_linearise(sim);
+    rows dx = new_rows(sim), dv = new_rows(sim), exact = new_rows(sim), near = new_rows(sim);
+    fill(dx, sim->point_count, 1, &random);
+    fill(dv, sim->point_count, 1, &random);
+    difference(sim, 1e-6, dx, dv, near);
+    sim_force_product(sim, 1, dx, 1, dv, exact);
+    const double size = largest(exact, sim->point_count);
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        for (int i = 0; i < 3; i++)
+            assert_near(exact[p][i], near[p][i], 1e-8 * size);
+    free(dx);
+    free(dv);
+    free(exact);
+    free(near);
+    sim_jacobian_close(sim);
+    close_balloon(&b);
+}
+
+/* The same h; rounding is f x 2e-16/h = 2e-10 f, and changes are larger than f. */
+static void products_are_the_differences_of_the_forces(void **state)
+{
+    (void)state;
+    for (int k = 0; k < SHAPES; k++) {
+        check_products(HINGES(), k);
+        check_products(HINGES("balloons[0].bending.rest=flat"), k);
+        check_products(HINGES("balloons[0].bending.damping=0.3"), k);
+    }
+}
+
+static void add_moments(const struct sim *sim, rows what, double linear[3], double angular[3])
+{
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        for (int i = 0; i < 3; i++) {
+            const int j = (i + 1) % 3, k = (i + 2) % 3;
+            linear[i] += what[p][i];
+            angular[i] += sim->position[p][j] * what[p][k] - sim->position[p][k] * what[p][j];
+        }
+}
+
+/* No force and no torque on the whole, but for the rounding of sums of some 500 terms of the size of the largest. */
+static void hinges_push_and_turn_nothing_as_a_whole(void **state)
+{
+    (void)state;
+    for (int k = 0; k < SHAPES; k++) {
+        struct balloon b;
+        double force[3] = {0}, torque[3] = {0};
+        open_balloon(&b, 2, HINGES("balloons[0].bending.damping=0.3"));
+        deform(&b.sim, shapes[k].factor, shapes[k].size);
+        sim_forces(&b.sim);
+        add_moments(&b.sim, b.sim.force, force, torque);
+        const double size = largest(b.sim.force, b.sim.point_count);
+        assert_true(size > 0.1);
+        for (int i = 0; i < 3; i++) {
+            assert_near(force[i], 0, 1e-13 * size);
+            assert_near(torque[i], 0, 1e-12 * size); /* places are up to 2.5 away */
+        }
+        close_balloon(&b);
+    }
+}
+
+/* As meshed, it is at rest at any size: angles are what is kept. Flat, a sphere is not. */
+static void a_balloon_as_it_was_meshed_is_not_bent(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 2, HINGES());
+    for (uint32_t p = 0; p < b.sim.point_count; p++)
+        for (int i = 0; i < 3; i++)
+            b.sim.position[p][i] *= 3;
+    sim_forces(&b.sim);
+    assert_near(largest(b.sim.force, b.sim.point_count), 0, 1e-14);
+    assert_near(effects_energy(&b.sim), 0, 1e-25); /* squares of roundings */
+    close_balloon(&b);
+}
+
+/* The guard's bound, found at rest and watched from then on, keeps crumpled skin from gaining energy, but for the
+ * share that symplectic Euler moves to and fro near its limit. */
+static void the_guards_bound_holds_for_hinges(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        struct balloon b;
+        open_balloon(&b, 2, HINGES("time.guard=substep", "time.step=10", "balloons[0].spring=1"));
+        deform(&b.sim, (double[3]){1, 1, 1}, 0.1 * k);
+        memset(b.sim.velocity, 0, b.sim.point_count * sizeof *b.sim.velocity);
+        sim_forces(&b.sim); /* so that it is known how steep things are */
+        b.sim.hooks[EFFECT_FORCES][0].effect->after(&b.sim, b.sim.balloons);
+        struct sim_measures m = sim_measure(&b.sim);
+        const double begin = m.elastic_energy + effects_energy(&b.sim);
+        steps(&b, 2000);
+        m = sim_measure(&b.sim);
+        assert_true(m.kinetic_energy + m.elastic_energy + effects_energy(&b.sim) < 3 * begin + 1e-20);
+        close_balloon(&b);
+    }
+}
+
+/* The largest eigenvalue of the derivatives, by power iteration, is within the bound's 4/dt^2, and not far below. */
+static void the_bound_is_above_the_stiffest_mode(void **state)
+{
+    (void)state;
+    for (int k = 0; k < SHAPES; k++) {
+        struct balloon b;
+        uint64_t random = 5;
+        open_balloon(&b, 2, HINGES());
+        struct sim *sim = &b.sim;
+        deform(sim, shapes[k].factor, shapes[k].size);
+        sim_forces(sim);
+        sim->hooks[EFFECT_FORCES][0].effect->after(sim, sim->balloons);
+        guard_outdated(sim);
+        const double step = guard_stable_step(sim);
+        assert_ok(sim_jacobian_open(sim, &(struct error){0}), &(struct error){0});
+        sim_linearise(sim);
+        rows x = new_rows(sim), y = new_rows(sim);
+        fill(x, sim->point_count, 1, &random);
+        double stiffest = 0;
+        for (int i = 0; i < 300; i++) {
+            sim_force_product(sim, 1, x, 0, x, y);
+            double square = 0;
+            for (uint32_t p = 0; p < sim->point_count; p++)
+                for (int j = 0; j < 3; j++)
+                    square += y[p][j] * y[p][j];
+            stiffest = sqrt(square);
+            for (uint32_t p = 0; p < sim->point_count; p++)
+                for (int j = 0; j < 3; j++)
+                    x[p][j] = y[p][j] / stiffest;
+        }
+        print_message("# shape %d: the bound is %.2f times the stiffest mode\n", k,
+                      4 / (step * step) / stiffest);
+        assert_true(stiffest <= 4 / (step * step));
+        free(x);
+        free(y);
+        sim_jacobian_close(sim);
+        close_balloon(&b);
+    }
+}
+
+static void a_block_of_no_stiffness_changes_no_bit(void **state)
+{
+    (void)state;
+    struct balloon with, without;
+    open_balloon(&with, 2, SETTINGS("balloons[0].bending.stiffness=0"));
+    open_balloon(&without, 2, SETTINGS());
+    assert_int_equal(with.sim.bytes, without.sim.bytes);
+    steps(&with, 60);
+    steps(&without, 60);
+    assert_true(sim_hash(&with.sim) == sim_hash(&without.sim));
+    close_balloon(&with);
+    close_balloon(&without);
+}
+
+/* Cuts from a point on around the balloon, each along a side of a triangle that is still joined. */
+static void cut_some(struct sim *sim, int cuts)
+{
+    struct sim_balloon *b = sim->balloons;
+    for (uint32_t t = 40; t < sim->triangle_count && cuts > 0; t += 1)
+        if (b->topology->neighbour[t][0] != MESH_NONE && topology_can_cut(sim, b)) {
+            topology_cut(sim, b, t, 0);
+            cuts--;
+        }
+}
+
+/* Through crumpling and cuts, to the bit. */
+static void torn_hinges_are_equal_for_any_number_of_threads(void **state)
+{
+    (void)state;
+    static const unsigned workers[] = {1, 2, 3, 7};
+    struct error err = {0};
+    struct balloon b;
+    open_balloon(&b, 3,
+                 HINGES("balloons[0].spring=1", "balloons[0].bending.damping=0.02", "time.step=0.02",
+                        "balloons[0].fracture.mode=tear", "balloons[0].fracture.strength=50"));
+    uint64_t first = 0;
+    for (size_t w = 0; w < sizeof workers / sizeof workers[0]; w++) {
+        struct sim sim;
+        uint64_t random = 8;
+        assert_ok(sim_open(&sim, &b.scene, &b.mesh, workers[w], &err), &err);
+        fill(sim.position, sim.balloons->point_end, 0.05, &random);
+        for (int s = 0; s < 10; s++) {
+            cut_some(&sim, 7);
+            assert_ok(sim_step(&sim, &err), &err);
+        }
+        assert_true(sim.broken >= 70);
+        if (w == 0)
+            first = sim_hash(&sim);
+        assert_true(sim_hash(&sim) == first);
+        sim_clear(&sim);
+    }
+    close_balloon(&b);
+}
+
+/* Forces and products after cuts are the slopes of what is left, and cut hinges are gone. */
+static void a_cut_ends_its_hinge(void **state)
+{
+    (void)state;
+    struct balloon b;
+    struct error err = {0};
+    uint64_t random = 8;
+    double size;
+    open_balloon(&b, 2, HINGES("balloons[0].fracture.mode=tear", "balloons[0].fracture.strength=50"));
+    struct sim *sim = &b.sim;
+    assert_ok(ledger_open(sim, &err), &err);
+    fill(sim->position, sim->balloons->point_end, 0.05, &random);
+    const double before = effects_energy(sim);
+    cut_some(sim, 30);
+    const double after = effects_energy(sim);
+    const struct bending_view view = bending_look(sim, sim->balloons);
+    uint32_t hinges = 0;
+    for (uint32_t e = 0; e < sim->balloons->bending->count; e++)
+        hinges += bending_holds(&view, e);
+    assert_int_equal(hinges, 480 - sim->broken);
+    assert_true(after < before);
+    assert_near(sim->ledger.account.fracture, before - after, 1e-12 * before);
+    rows dx = new_rows(sim);
+    fill(dx, sim->balloons->point_end, 1, &random);
+    const double work = work_against(sim, dx, &size);
+    assert_near(work, energy_difference(sim, 1e-6, dx, energy_of), 1e-8 * size + 3e-8);
+    free(dx);
+    close_balloon(&b);
+}
+
+/* Kinetic, elastic, bending and dissipated energy and what broke add up: symplectic Euler's error falls with the step. */
+static void the_ledger_balances(void **state)
+{
+    (void)state;
+    double error[2];
+    for (int k = 0; k < 2; k++) {
+        struct error err = {0};
+        struct balloon b;
+        open_balloon(&b, 2,
+                     HINGES("balloons[0].spring=2", "balloons[0].bending.damping=0.05",
+                            k ? "time.step=0.0025" : "time.step=0.005"));
+        for (uint32_t p = 0; p < b.sim.point_count; p++)
+            b.sim.position[p][0] *= 0.7;
+        assert_ok(ledger_open(&b.sim, &err), &err);
+        steps(&b, k ? 200 : 100);
+        sim_break_edge(&b.sim, 30);
+        sim_break_edge(&b.sim, 77);
+        steps(&b, k ? 200 : 100);
+        const struct sim_measures m = sim_measure(&b.sim);
+        const struct ledger_balance balance = ledger_balance(&b.sim, &m);
+        assert_true(balance.dissipated > 0.01);
+        assert_true(balance.fracture > 0);
+        error[k] = fabs(balance.error);
+        assert_true(error[k] < 0.02 * b.sim.ledger.account.begin);
+        close_balloon(&b);
+    }
+    assert_true(error[1] < 0.6 * error[0]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(forces_are_the_slope_of_the_energy),
+        cmocka_unit_test(products_are_the_differences_of_the_forces),
+        cmocka_unit_test(hinges_push_and_turn_nothing_as_a_whole),
+        cmocka_unit_test(a_balloon_as_it_was_meshed_is_not_bent),
+        cmocka_unit_test(the_bound_is_above_the_stiffest_mode),
+        cmocka_unit_test(the_guards_bound_holds_for_hinges),
+        cmocka_unit_test(a_block_of_no_stiffness_changes_no_bit),
+        cmocka_unit_test(torn_hinges_are_equal_for_any_number_of_threads),
+        cmocka_unit_test(a_cut_ends_its_hinge),
+        cmocka_unit_test(the_ledger_balances),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
