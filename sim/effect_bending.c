@@ -126,6 +126,10 @@ static bool make_reach(struct sim *sim, const struct sim_balloon *b)
     return true;
 }
 
+/* What the guard takes for the steepest must hold what there is: with so much to spare that it is seldom asked again, and moved back only where it
+ * has become far too much. */
+static const double spare = 1.15, too_much = 2;
+
 static enum status open(struct sim *sim, struct sim_balloon *b, struct error *err)
 {
     if (b->scene->bending.stiffness == 0)
@@ -135,7 +139,7 @@ static enum status open(struct sim *sim, struct sim_balloon *b, struct error *er
         return error_no_memory(err, "the hinges");
     h->count = b->edge_end - b->edge_begin;
     h->damping = b->scene->bending.damping;
-    h->bounded = 1.5;
+    h->bounded = spare;
     h->kernels = find_kernels();
     h->rest = sim_table(sim, h->count, sizeof *h->rest);
     h->corners = sim_table(sim, h->count, sizeof *h->corners);
@@ -228,16 +232,17 @@ static void bound(const struct sim *sim, const struct sim_balloon *b, const stru
     }
 }
 
-/* What the guard takes for the steepest must hold what there is; with some room, so that it is seldom asked. */
 static void watch(struct sim *sim, struct sim_balloon *b)
 {
-    double most = 0;
-    for (size_t i = 0; b->bending && i < sim->part_count; i++)
+    if (!b->bending)
+        return;
+    double most = 1;
+    for (size_t i = 0; i < sim->part_count; i++)
         if (sim->parts[i].balloon == b)
             most = fmax(most, b->bending->range[i]);
-    if (!b->bending || !(most > b->bending->bounded))
+    if (most <= b->bending->bounded && b->bending->bounded <= too_much * spare * most)
         return;
-    b->bending->bounded = 1.5 * most;
+    b->bending->bounded = spare * most;
     guard_outdated(sim);
 }
 

@@ -18,6 +18,7 @@ static const struct call calls[] = {
     {"spring_by_height", {"balloons[0].spring_by_height.profile=((0.0, 1.0), (1.0, 2.0))"}, NULL},
     {"rip", {"balloons[0].rip.at=0.1"}, NULL},
     {"membrane", {"balloons[1].membrane.thickness=0.45"}, NULL},
+    {"bending", {"balloons[1].bending.stiffness=1", "balloons[2].bending.damping=0.1"}, NULL},
     {"viscosity", {"balloons[0].viscosity.ratio=0.5"}, NULL},
     {"plasticity", {"balloons[0].plasticity.yield=1"}, NULL},
     {"pressure_on", {"balloons[0].pressure_on=areas", "balloons[0].pressure=0.5"}, NULL},

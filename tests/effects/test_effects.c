@@ -46,6 +46,7 @@ static void a_block_without_magnitude_changes_no_bit(void **state)
     } idle[] = {
         {"spring_by_height", {"balloons[0].spring_by_height.profile=((0.0, 1.0), (1.0, 1.0))"}},
         {"rip", {"balloons[0].rip.at=1e9"}},
+        {"bending", {"balloons[0].bending.stiffness=0"}},
         {"viscosity", {"balloons[0].viscosity.ratio=0"}},
         {"plasticity", {"balloons[0].plasticity.yield=1e9"}},
         {"needles", {"needles[0].from=[0, 1000, 0]"}},
