@@ -153,7 +153,7 @@ static void the_guards_bound_holds_for_hinges(void **state)
     (void)state;
     for (int k = 0; k < 3; k++) {
         struct balloon b;
-        open_balloon(&b, 2, HINGES("time.guard=substep", "time.step=10", "balloons[0].spring=1"));
+        open_balloon(&b, 2, HINGES("time.guard=substep", "time.step=0.1", "balloons[0].spring=1"));
         deform(&b.sim, (double[3]){1, 1, 1}, 0.1 * k);
         memset(b.sim.velocity, 0, b.sim.point_count * sizeof *b.sim.velocity);
         sim_forces(&b.sim); /* so that it is known how steep things are */
@@ -162,7 +162,7 @@ static void the_guards_bound_holds_for_hinges(void **state)
         const double begin = m.elastic_energy + effects_energy(&b.sim);
         steps(&b, 2000);
         m = sim_measure(&b.sim);
-        assert_true(m.kinetic_energy + m.elastic_energy + effects_energy(&b.sim) < 3 * begin + 1e-20);
+        assert_true(m.kinetic_energy + m.elastic_energy + effects_energy(&b.sim) < 1.5 * begin + 1e-20);
         close_balloon(&b);
     }
 }
