@@ -1,5 +1,5 @@
 /* The simulator alone: full steps of springs, dampers and constant pressure, on one thread and on all; on the mesh that is given
- * and on icospheres. bench_step [MESH] */
+ * and on icospheres. Bytes a triangle are those of the tables; bytes an edge those that a step moves, and GB/s at what rate on one thread. bench_step [MESH] */
 #include "common/threads.h"
 #include "sim/sim.h"
 #include "support/bench.h"
@@ -46,14 +46,29 @@ static struct timing measure(const struct mesh *mesh, unsigned workers)
     return timing;
 }
 
+/* What one step must bring from memory or take there where nothing stays in a cache, once each: places and speeds both ways, masses,
+ * forces and normals out, and what edges and triangles are. */
+static double bytes_moved(const struct mesh *mesh)
+{
+    const struct sim *sim = NULL;
+    const double point = 2 * (sizeof *sim->position + sizeof *sim->velocity) + sizeof *sim->mass +
+                         sizeof *sim->force + sizeof *sim->normal,
+                 edge = sizeof *sim->edge_point + sizeof *sim->rest_length +
+                        sizeof *sim->current_spring_const + sizeof *sim->edge_active,
+                 triangle = sizeof *sim->triangle_point + sizeof *sim->triangle_active;
+    return mesh->point_count * point + mesh->edge_count * edge + mesh->triangle_count * triangle;
+}
+
 static void bench(struct mesh *mesh)
 {
     struct error err = {0};
     bench_check(mesh_order(mesh, &err), &err); /* as sim_load_meshes() does */
     const struct timing one = measure(mesh, 1), all = measure(mesh, threads_of_machine());
-    printf("%9u  %6u  %12.0f  %10.1f  %16.1f  %13.2f  %16.1f\n", mesh->triangle_count, one.broken,
-           1 / one.seconds, 1e9 * one.seconds / mesh->edge_count, 1e9 * all.seconds / mesh->edge_count,
-           one.seconds / all.seconds, one.bytes / mesh->triangle_count);
+    const double moved = bytes_moved(mesh);
+    printf("%9u  %6u  %12.0f  %10.1f  %16.1f  %13.2f  %16.1f  %13.0f  %4.1f\n", mesh->triangle_count,
+           one.broken, 1 / one.seconds, 1e9 * one.seconds / mesh->edge_count,
+           1e9 * all.seconds / mesh->edge_count, one.seconds / all.seconds, one.bytes / mesh->triangle_count,
+           moved / mesh->edge_count, 1e-9 * moved / one.seconds);
     mesh_clear(mesh);
 }
 
@@ -62,7 +77,8 @@ int main(int argc, char **argv)
     struct error err = {0};
     struct mesh mesh = {0};
     printf("Full steps of springs and pressure; all is %u threads\n", threads_of_machine());
-    printf("triangles  broken  steps/second  ns an edge  ns, all threads  times as fast  bytes a triangle\n");
+    printf("triangles  broken  steps/second  ns an edge  ns, all threads  times as fast  bytes a triangle  "
+           "bytes an edge  GB/s\n");
     if (argc > 1) {
         bench_check(mesh_load(argv[1], &mesh, &err), &err);
         bench_check(mesh_connect(&mesh, &err), &err);
