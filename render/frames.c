@@ -311,17 +311,22 @@ static enum status write_sheet(const struct frames *frames, struct error *err)
     return status;
 }
 
+void frames_abandon(struct frames *frames)
+{
+    stop_threads(frames);
+    movie_abandon(frames->movie);
+    free_frames(frames);
+}
+
 enum status frames_close(struct frames *frames, struct error *err)
 {
     struct error problem = {0};
     stop_threads(frames);
-    if (frames->movie_running && !frames->movie_failed) {
-        if (movie_commit(frames->movie, &problem))
-            note_failure(frames, &problem);
-    } else {
+    if (!frames->movie_running || frames->first.status)
         movie_abandon(frames->movie);
-    }
-    if (frames->sheet.count && write_sheet(frames, &problem))
+    else if (movie_commit(frames->movie, &problem))
+        note_failure(frames, &problem);
+    if (frames->sheet.count && !frames->first.status && write_sheet(frames, &problem))
         note_failure(frames, &problem);
     problem = frames->first;
     free_frames(frames);

@@ -38,12 +38,15 @@ enum status frames_open(const struct frames_options *options, struct frames **fr
 
 /* Adds a copy of the next picture, shown at `time` (seconds, for the sheet's labels and the PNGs' text). All
  * pictures have the first one's size (else STATUS_RANGE). Errors are those of writing; after one no more are
- * taken, and what is queued still goes wherever nothing failed. */
+ * taken; PNGs that are queued are still written where none failed. */
 enum status frames_add(struct frames *frames, const struct image *image, double time, struct error *err);
 
 /* Waits for what is queued, ends the movie, writes the sheet and frees `frames`. Returns the first error of
- * the whole run, also when frames_add() returned it before. PNGs that were complete stay; a movie or sheet
- * that failed is not there, and an older file of its name is untouched. */
+ * the whole run, also when frames_add() returned it before. PNGs that were complete stay; after an error there is
+ * no movie that was not complete and no sheet, and an older file of its name is untouched. */
 enum status frames_close(struct frames *frames, struct error *err);
+
+/* The same where the run failed elsewhere: PNGs stay, the movie and the sheet are thrown away. */
+void frames_abandon(struct frames *frames);
 
 #endif

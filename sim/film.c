@@ -93,7 +93,7 @@ enum status film_open(struct sim *sim, const double centre[3], double radius,
     if (!status)
         status = open_frames(film, sim->scene, options, err);
     if (status)
-        film_close(film, NULL);
+        film_close(film, false, NULL);
     else
         *result = film;
     return status;
@@ -142,17 +142,16 @@ enum status film_frame(struct film *film, struct error *err)
     return status;
 }
 
-enum status film_close(struct film *film, struct error *err)
+enum status film_close(struct film *film, bool keep, struct error *err)
 {
-    struct error other;
     enum status status = STATUS_OK;
     if (!film)
         return STATUS_OK;
-    for (int eye = 0; eye < 2; eye++) {
-        const enum status closed = film->frames[eye] ? frames_close(film->frames[eye], status ? &other : err)
-                                                     : STATUS_OK;
-        status = status ? status : closed;
-    }
+    for (int eye = 0; eye < 2; eye++)
+        if (film->frames[eye] && keep && !status)
+            status = frames_close(film->frames[eye], err);
+        else if (film->frames[eye])
+            frames_abandon(film->frames[eye]);
     render_close(film->render);
     image_clear(&film->image);
     skins_clear(&film->skins);

@@ -21,7 +21,8 @@ enum status film_frame(struct film *film, struct error *err);
 /* How many those were. NULL is fine. */
 size_t film_removed(const struct film *film);
 
-/* Ends the outputs and frees the film, whatever it returns. NULL is fine. */
-enum status film_close(struct film *film, struct error *err);
+/* Ends the outputs and frees the film, whatever it returns; without `keep` there is no movie and no sheet, and those that were
+ * there stay. NULL is fine. */
+enum status film_close(struct film *film, bool keep, struct error *err);
 
 #endif

@@ -137,7 +137,7 @@ enum status outputs_close(struct outputs *outputs, enum status status, struct er
     const bool keep = !status || status == STATUS_DIVERGED || status == STATUS_INTERRUPTED ||
                       status == STATUS_TERMINATED;
     struct error other = {0};
-    enum status closed = film_close(outputs->film, &other);
+    enum status closed = film_close(outputs->film, keep, &other);
     if (keep && outputs->plot && outputs->log && draw_plot(outputs, closed ? NULL : &other) && !closed)
         closed = other.status;
     if (mesh_series_close(outputs->series, &outputs->removed, closed ? NULL : &other) && !closed)

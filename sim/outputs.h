@@ -40,7 +40,7 @@ enum status outputs_show(struct outputs *outputs, struct sim *sim, struct error 
 enum status outputs_finish(struct outputs *outputs, struct error *err);
 
 /* Ends all, after a run that ended with `status`: one that diverged or was interrupted keeps what it has shown so far; any other
- * failure leaves the old log. Returns that status, or the first failure here. */
+ * failure leaves the old log, movie and sheet. Returns that status, or the first failure here. */
 enum status outputs_close(struct outputs *outputs, enum status status, struct error *err);
 
 #endif
