@@ -251,6 +251,14 @@ static size_t blocks(struct sim *sim, struct sim_block *list)
     return count;
 }
 
+static bool is_sound(const struct sim *sim)
+{
+    const struct auto_method *m = sim->method;
+    const double parts = m->memory.parts;
+    return m->memory.candidate < CANDIDATES && m->is_open[m->memory.candidate] && parts >= 0 &&
+           parts <= GUARD_PARTS_MAX;
+}
+
 bool auto_describe(const struct sim *sim, uint64_t *choices, char *text, size_t size)
 {
     const struct auto_method *m = sim->method;
@@ -278,4 +286,5 @@ const struct integrator integrator_auto = {.name = "auto",
                                            .choose = choose,
                                            .advance = advance,
                                            .blocks = blocks,
+                                           .is_sound = is_sound,
                                            .source = "trials of the scene itself"};

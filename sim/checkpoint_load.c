@@ -231,9 +231,9 @@ static bool is_state(const struct sim *sim)
     const double least = 1e-9, most = 1e6; /* the range of time.step */
     return all_flags(sim->edge_active, sim->edge_count) &&
            all_flags(sim->triangle_active, sim->triangle_count) && all_flags(&sim->edges_broke, 1) &&
-           isfinite(sim->time) && sim->time >= 0 && sim->time_base >= 0 && sim->time_base <= sim->time &&
-           sim->whole_step >= least && sim->whole_step <= most && sim->substeps >= 1 &&
-           sim->substeps <= GUARD_PARTS_MAX && sim->step > 0 && sim->step <= most;
+           all_flags(&sim->changed, 1) && isfinite(sim->time) && sim->time >= 0 && sim->time_base >= 0 &&
+           sim->time_base <= sim->time && sim->whole_step >= least && sim->whole_step <= most &&
+           sim->substeps >= 1 && sim->substeps <= GUARD_PARTS_MAX && sim->step > 0 && sim->step <= most;
 }
 
 static enum status read_state(struct reader *reader, struct error *err)

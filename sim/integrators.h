@@ -31,6 +31,8 @@ struct integrator {
     enum status (*advance)(struct sim *sim, double dt, struct error *err);
     /* What it remembers from step to step, as blocks; returns how many. NULL: nothing. */
     size_t (*blocks)(struct sim *sim, struct sim_block *blocks);
+    /* Whether those blocks, filled with anything, can be gone on with: asked where a state comes out of a file. NULL: any can. */
+    bool (*is_sound)(const struct sim *sim);
     /* Sets position, velocity and scalar to what they were `back` seconds ago, 0 to sim->taken: inside the step that was
      * taken last, by an interpolation as good as the method. NULL: states between steps cannot be had. */
     void (*look)(struct sim *sim, double back);

@@ -3,6 +3,7 @@
 #include "common/vec3.h"
 #include "sim/fracture.h"
 #include "sim/guard.h"
+#include "sim/integrators.h"
 
 double sim_edge_length(const struct sim *sim, uint32_t edge)
 {
@@ -67,6 +68,8 @@ size_t sim_blocks(struct sim *sim, struct sim_block blocks[SIM_BLOCKS_MAX])
 
 bool sim_restored(struct sim *sim)
 {
+    if (sim->integrator->is_sound && !sim->integrator->is_sound(sim))
+        return false;
     for (struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
         if (b->fracture && !fracture_is_sound(sim, b))
             return false;

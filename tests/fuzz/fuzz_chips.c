@@ -1,4 +1,5 @@
 #include "fuzz.h"
+#include "limits.h"
 #include "sculpt/chip_log.h"
 
 #include <string.h>
@@ -19,7 +20,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (size > 0)
         memcpy(text, data, size);
     text[size] = '\0';
+    limits_begin();
     enum status status = chips_parse("fuzz", text, size, &chips, &err);
+    limits_end(size);
     free(text);
     must_say(status, &err);
     if (status) {

@@ -1,4 +1,5 @@
 #include "fuzz.h"
+#include "limits.h"
 #include "sculpt/journal.h"
 #include "sculpt/journal_text.h"
 
@@ -39,7 +40,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     FILE *stream = fopen(name, "wb");
     must(stream && fwrite(text, 1, size, stream) == size && !fclose(stream));
     free(text);
+    limits_begin();
     enum status status = journal_recover(path, &tree, NULL, &report, &err);
+    limits_end(size);
     must_say(status, &err);
     if (status) {
         must(tree.blocks == NULL);

@@ -1,5 +1,7 @@
 #include "common/crc.h"
 #include "common/octree.h"
+#include "fuzz.h"
+#include "limits.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,15 +9,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
 enum { SIGNATURE_SIZE = 8, CHUNK_HEAD = 8, CHUNK_TAIL = 4 };
-
-static void must(bool holds)
-{
-    if (!holds)
-        abort();
-}
 
 /* Puts the right checksum behind every chunk, for else hardly any damage gets past it. */
 static void mend_checksums(uint8_t *bytes, size_t size)
@@ -40,7 +34,9 @@ static enum status load(const uint8_t *bytes, size_t size, struct octree *tree, 
     int file = memfd_create("fuzz", 0);
     must(file >= 0 && write(file, bytes, size) == (ssize_t)size);
     snprintf(path, sizeof path, "/proc/self/fd/%d", file);
+    limits_begin();
     enum status status = octree_load(path, tree, err);
+    limits_end(size);
     close(file);
     return status;
 }
@@ -57,7 +53,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     mend_checksums(bytes, size);
     enum status status = load(bytes, size, &tree, &err);
     free(bytes);
-    must(status == err.status && (status == STATUS_OK) == (err.text[0] == '\0'));
+    must_say(status, &err);
     if (status) {
         must(tree.blocks == NULL);
         return 0;
