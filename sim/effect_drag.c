@@ -3,12 +3,13 @@
  * normal, a third on each corner. With N twice the area vector and w the wind less the mean of the corners' speeds,
  *     F = r C/4 (w . N) |w . N| N/|N|^2.
  * A plate square to the wind has the drag coefficient C, and so has a sphere, whose two halves count: its sum of |cos|^3 over
- * the area is that of its cross-section.
+ * the area is that of its cross-section. Forces are worked out where the triangles' normals are (forces.c), which brings nearly half of the work.
  */
 #include "common/vec3.h"
 #include "sim/effects.h"
 #include "sim/guard.h"
-#include "sim/kernels.h"
+
+#include <stdlib.h>
 
 static bool wanted(const struct scene *scene)
 {
@@ -42,17 +43,18 @@ static void add_to_own(const struct sim_part *part, double (*to)[4], const uint3
                 to[p[k]][i] += factor * add[i];
 }
 
-static void blow(struct sim *sim, const struct sim_part *part, void *context)
-{
-    (void)context;
-    const struct scene_drag *drag = &sim->scene->drag;
-    sim->kernels->drag_triangles(sim, part, drag->air_density * drag->coefficient / 12, drag->wind);
-}
-
-static void apply(struct sim *sim, struct sim_balloon *balloon)
+static enum status open(struct sim *sim, struct sim_balloon *balloon, struct error *err)
 {
     (void)balloon;
-    sim_each_part(sim, blow, NULL);
+    sim->rows.air = sim_table(sim, sim->point_count, sizeof(double[4]));
+    return sim->rows.air ? STATUS_OK : error_no_memory(err, "the air's forces");
+}
+
+static void close(struct sim *sim, struct sim_balloon *balloon)
+{
+    (void)balloon;
+    free(sim->rows.air);
+    sim->rows.air = NULL;
 }
 
 struct product {
@@ -139,7 +141,8 @@ static void power(struct sim *sim, struct sim_balloon *balloon, double *dissipat
 const struct effect effect_drag = {.name = "drag",
                                    .phase = EFFECT_FORCES,
                                    .scene_wanted = wanted,
-                                   .apply = apply,
+                                   .open = open,
+                                   .close = close,
                                    .product = product,
                                    .bound = bound,
                                    .power = power,

@@ -185,35 +185,98 @@ static inline row triangle_normal(const row *position, const uint32_t *p, bool u
 }
 
 /* The same for four triangles that follow each other. */
-static inline void normals_of_four(const row *position, const uint32_t (*point)[3], bool unit, row n[4])
+struct normals {
+    row twice_area[4], added[4];
+    lanes inverse;
+};
+
+static inline struct normals normals_of_four(const row *position, const uint32_t (*point)[3], bool unit)
 {
+    struct normals n;
     for (int i = 0; i < 4; i++)
-        n[i] = triangle_normal(position, point[i], false);
-    const lanes inverse_length = inverses(lengths_of(n));
+        n.added[i] = n.twice_area[i] = triangle_normal(position, point[i], false);
+    n.inverse = inverses(lengths_of(n.twice_area));
     for (int i = 0; i < 4 && unit; i++)
-        n[i] *= inverse_length[i];
+        n.added[i] *= n.inverse[i];
+    return n;
 }
 
-/* Adds it to those of the three points that are the part's. */
-static inline void add_to_own(const struct sim_part *part, row *normal, const uint32_t *p, row n)
+/* The air's resistance (effect_drag.c), with what the normal has brought: (r C/12) (w . N) |w . N| N/|N|^2, N twice the area
+ * vector, w the wind less the mean speed. */
+struct air {
+    row *force; /* sim->rows.air */
+    const row *velocity;
+    row wind;      /* three times it */
+    double factor; /* r C/108 */
+};
+
+static inline struct air air_of(const struct sim *sim)
+{
+    const struct scene_drag *drag = &sim->scene->drag;
+    const row wind = {drag->wind[0], drag->wind[1], drag->wind[2], 0};
+    return (struct air){sim->rows.air, sim->rows.velocity, 3 * wind,
+                        drag->air_density * drag->coefficient / 108};
+}
+
+static inline row wind_at(const struct air *air, const uint32_t *p)
+{
+    return air->wind - (air->velocity[p[0]] + air->velocity[p[1]] + air->velocity[p[2]]);
+}
+
+static inline row air_force(const struct air *air, const uint32_t *p, row n)
+{
+    const double across = dot(wind_at(air, p), n), inverse_length = inverse(length_of(n));
+    return air->factor * (across * fabs(across)) * (inverse_length * inverse_length) * n;
+}
+
+/* The same for four triangles, each as for one alone, to the bit. */
+static inline void air_forces_of_four(const struct air *air, const uint32_t (*point)[3],
+                                      const struct normals *n, row f[4])
+{
+    row w[4];
+    for (int i = 0; i < 4; i++)
+        w[i] = wind_at(air, point[i]);
+    const lanes across = lanes_dot(lanes_of_rows(w), lanes_of_rows(n->twice_area));
+    const lanes size = lanes_select(across < 0, -across, across);
+    const lanes push = air->factor * (across * size) * (n->inverse * n->inverse);
+    for (int i = 0; i < 4; i++)
+        f[i] = push[i] * n->twice_area[i];
+}
+
+/* Adds to those of the three points that are the part's. */
+static inline void add_to_own(const struct sim_part *part, row *rows, const uint32_t *p, row r)
 {
     for (int k = 0; k < 3; k++)
         if (p[k] - part->point_begin < part->point_end - part->point_begin)
-            normal[p[k]] += n;
+            rows[p[k]] += r;
 }
 
-static inline void add_coming(struct sim *sim, const struct sim_part *part, bool unit)
+static inline void add_to_all(row *rows, const uint32_t *p, row r)
 {
-    const row *position = sim->rows.position;
-    for (uint32_t i = 0; i < part->triangle_in_count; i++) {
-        const uint32_t *p = sim->triangle_point[part->triangle_in[i]];
-        if (sim->triangle_active[part->triangle_in[i]])
-            add_to_own(part, sim->rows.normal, p, triangle_normal(position, p, unit));
-    }
+    rows[p[0]] += r;
+    rows[p[1]] += r;
+    rows[p[2]] += r;
+}
+
+static inline void add_own_triangle(struct sim *sim, const struct sim_part *part, uint32_t t, bool unit,
+                                    const struct air *air)
+{
+    const uint32_t *p = sim->triangle_point[t];
+    if (!sim->triangle_active[t])
+        return;
+    add_to_own(part, sim->rows.normal, p, triangle_normal(sim->rows.position, p, unit));
+    if (air)
+        add_to_own(part, air->force, p, air_force(air, p, triangle_normal(sim->rows.position, p, false)));
+}
+
+static inline void add_coming(struct sim *sim, const struct sim_part *part, bool unit, const struct air *air)
+{
+    for (uint32_t i = 0; i < part->triangle_in_count; i++)
+        add_own_triangle(sim, part, part->triangle_in[i], unit, air);
 }
 
 static inline void add_triangles(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk,
-                                 bool unit)
+                                 bool unit, const struct air *air)
 {
     const row *position = sim->rows.position;
     row *normal = sim->rows.normal;
@@ -222,36 +285,56 @@ static inline void add_triangles(struct sim *sim, const struct sim_part *part, c
     const uint32_t inner_end = chunk->triangle_inner_end, end = chunk->triangle_end;
     uint32_t t = chunk->triangle_begin;
     for (; inner_end - t >= 4; t += 4) {
-        row n[4];
-        normals_of_four(position, &point[t], unit, n);
+        const struct normals n = normals_of_four(position, &point[t], unit);
+        row f[4];
+        if (air)
+            air_forces_of_four(air, &point[t], &n, f);
         for (uint32_t i = 0; i < 4; i++)
-            if (active[t + i])
-                for (int k = 0; k < 3; k++)
-                    normal[point[t + i][k]] += n[i];
+            if (active[t + i]) {
+                add_to_all(normal, point[t + i], n.added[i]);
+                if (air)
+                    add_to_all(air->force, point[t + i], f[i]);
+            }
     }
     for (; t < end; t++)
-        if (active[t])
-            add_to_own(part, normal, point[t], triangle_normal(position, point[t], unit));
+        add_own_triangle(sim, part, t, unit, air);
 }
 
-static void coming_normals(struct sim *sim, const struct sim_part *part)
+/* The forces of the air are added up apart, in the triangles' order, so that their sums are the same however the points are shared
+ * out; they are 0 again afterwards. */
+static void add_air(struct sim *sim, const struct sim_chunk *chunk)
 {
-    add_coming(sim, part, true);
+    row *force = sim->rows.force, *air = sim->rows.air;
+    for (uint32_t p = chunk->point_begin; p < chunk->point_end; p++) {
+        force[p] += air[p];
+        air[p] = (row){0};
+    }
+}
+
+static inline void add_all_triangles(struct sim *sim, const struct sim_part *part,
+                                     const struct sim_chunk *chunk, bool unit)
+{
+    if (sim->rows.air) {
+        const struct air air = air_of(sim);
+        if (chunk == part->chunks)
+            add_coming(sim, part, unit, &air);
+        add_triangles(sim, part, chunk, unit, &air);
+        add_air(sim, chunk);
+    } else {
+        if (chunk == part->chunks)
+            add_coming(sim, part, unit, NULL);
+        add_triangles(sim, part, chunk, unit, NULL);
+    }
 }
 
 static void triangle_normals(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk)
 {
-    add_triangles(sim, part, chunk, true);
-}
-
-static void coming_areas(struct sim *sim, const struct sim_part *part)
-{
-    add_coming(sim, part, false);
+    add_all_triangles(sim, part, chunk, true);
 }
 
 static void triangle_areas(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk)
 {
-    add_triangles(sim, part, chunk, false);
+    add_all_triangles(sim, part, chunk, false);
 }
 
 /* Part 4: normalize the normals; pressure is a force along them. A point that lost its last triangle has no normal, and
@@ -285,42 +368,6 @@ static void push_areas(struct sim *sim, const struct sim_part *part, double cons
     const uint32_t end = part->point_end;
     for (uint32_t p = part->point_begin; p < end; p++)
         force[p] += (c + dot(d, position[p])) * (1 / 6.0) * twice_area[p];
-}
-
-/* The air's resistance (effect_drag.c): factor (w . N) |w . N| N/|N|^2, N twice the area vector, w the wind less the mean speed. */
-static inline row drag_force(const struct sim *sim, const uint32_t *p, double factor, row wind)
-{
-    const row *position = sim->rows.position, *velocity = sim->rows.velocity;
-    const row n = triangle_normal(position, p, false);
-    const row w = wind - (velocity[p[0]] + velocity[p[1]] + velocity[p[2]]) * (1 / 3.0);
-    const double across = dot(w, n), squared = dot(n, n);
-    return factor * across * (across < 0 ? -across : across) * inverse(squared) * n;
-}
-
-static void drag_triangles(struct sim *sim, const struct sim_part *part, double factor, const double *wind)
-{
-    row *force = sim->rows.force;
-    const row w = {wind[0], wind[1], wind[2], 0};
-    const double f = factor;
-    for (uint32_t i = 0; i < part->triangle_in_count; i++) {
-        const uint32_t t = part->triangle_in[i];
-        if (sim->triangle_active[t])
-            add_to_own(part, force, sim->triangle_point[t], drag_force(sim, sim->triangle_point[t], f, w));
-    }
-    for (const struct sim_chunk *c = part->chunks; c < part->chunks + part->chunk_count; c++) {
-        const uint32_t(*point)[3] = (const uint32_t(*)[3])sim->triangle_point;
-        const unsigned char *active = sim->triangle_active;
-        for (uint32_t t = c->triangle_begin; t < c->triangle_inner_end; t++)
-            if (active[t]) {
-                const row push = drag_force(sim, point[t], f, w);
-                force[point[t][0]] += push;
-                force[point[t][1]] += push;
-                force[point[t][2]] += push;
-            }
-        for (uint32_t t = c->triangle_inner_end; t < c->triangle_end; t++)
-            if (active[t])
-                add_to_own(part, force, point[t], drag_force(sim, point[t], f, w));
-    }
 }
 
 static double sum_volume(const struct sim *sim, uint32_t begin, uint32_t end, const double *origin)
@@ -368,6 +415,6 @@ static uint32_t count_overlong(const struct sim *sim, const struct sim_part *par
 }
 
 extern const struct sim_kernels SIM_KERNELS;
-const struct sim_kernels SIM_KERNELS = {clear_points,     coming_forces,   edge_forces,    coming_normals,
-                                        triangle_normals, pressure_forces, count_overlong, coming_areas,
-                                        triangle_areas,   push_areas,      drag_triangles, sum_volume};
+const struct sim_kernels SIM_KERNELS = {clear_points,     coming_forces,   edge_forces,
+                                        triangle_normals, pressure_forces, count_overlong,
+                                        triangle_areas,   push_areas,      sum_volume};

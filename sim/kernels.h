@@ -12,17 +12,14 @@ struct sim_kernels {
     void (*clear_points)(struct sim *sim, const struct sim_chunk *chunk);
     void (*coming_forces)(struct sim *sim, const struct sim_part *part); /* of edges of lower parts */
     void (*edge_forces)(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk);
-    void (*coming_normals)(struct sim *sim, const struct sim_part *part); /* of triangles of lower parts */
+    /* Also of triangles of lower parts, with the first chunk; and the air's resistance (effect_drag.c). */
     void (*triangle_normals)(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk);
     void (*pressure_forces)(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk);
     /* How many of the active edges that begin in this part are longer than the threshold. */
     uint32_t (*count_overlong)(const struct sim *sim, const struct sim_part *part);
     /* Where pressure acts on areas (areas.h): sums of twice the area vectors in place of the normals, and what goes by them. */
-    void (*coming_areas)(struct sim *sim, const struct sim_part *part);
     void (*triangle_areas)(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk);
     void (*push_areas)(struct sim *sim, const struct sim_part *part, double constant, const double *gradient);
-    /* Adds the air's resistance (effect_drag.c): the factor r C/12, and the wind. */
-    void (*drag_triangles)(struct sim *sim, const struct sim_part *part, double factor, const double *wind);
     double (*sum_volume)(const struct sim *sim, uint32_t begin, uint32_t end,
                          const double *origin); /* 18 V */
 };
@@ -31,14 +28,9 @@ struct sim_kernels {
 static inline void kernels_press(const struct sim_kernels *k, struct sim *sim, const struct sim_part *part,
                                  const struct sim_chunk *chunk)
 {
-    const bool first = chunk == part->chunks;
     if (part->balloon->by_area) {
-        if (first)
-            k->coming_areas(sim, part);
         k->triangle_areas(sim, part, chunk);
     } else {
-        if (first)
-            k->coming_normals(sim, part);
         k->triangle_normals(sim, part, chunk);
         k->pressure_forces(sim, part, chunk);
     }

@@ -171,6 +171,8 @@ struct sim {
     const struct sim_kernels *kernels;
     struct {
         void *position, *velocity, *force, *normal; /* [point_count] what the kernels work on */
+        void *
+            air; /* likewise: what it does to each point, between evaluations 0 (effect_drag.c); NULL: no drag */
     } rows;
 
     const struct integrator *integrator;
