@@ -225,8 +225,9 @@ static inline row wind_at(const struct air *air, const uint32_t *p)
 
 static inline row air_force(const struct air *air, const uint32_t *p, row n)
 {
-    const double across = dot(wind_at(air, p), n), inverse_length = inverse(length_of(n));
-    return air->factor * (across * fabs(across)) * (inverse_length * inverse_length) * n;
+    const double across = dot(wind_at(air, p), n), size = across < 0 ? -across : across,
+                 inverse_length = inverse(length_of(n));
+    return air->factor * (across * size) * (inverse_length * inverse_length) * n;
 }
 
 /* The same for four triangles, each as for one alone, to the bit. */

@@ -8,7 +8,7 @@
 #include <inttypes.h>
 #include <string.h>
 
-enum { LEVEL = 5, STEPS = 40, TURNS = 25, KEYS_MAX = 8 };
+enum { LEVEL = 5, STEPS = 20, TURNS = 15, KEYS_MAX = 8 };
 
 struct row {
     const char *name, *target;
