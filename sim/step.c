@@ -54,9 +54,18 @@ void sim_forces(struct sim *sim)
         ledger_rates(sim); /* what all this does to the energy, where accounts are kept */
 }
 
+/* Whether forces are complete with the parts: no effect adds to them once all parts are done. */
+static bool are_complete(const struct sim *sim)
+{
+    for (size_t i = 0; i < sim->hook_count[EFFECT_FORCES]; i++)
+        if (sim->hooks[EFFECT_FORCES][i].effect->apply)
+            return false;
+    return !sim->ledger.on;
+}
+
 void sim_forces_then(struct sim *sim, struct sim_move *move)
 {
-    if (sim->hook_count[EFFECT_FORCES] == 0 && !sim->ledger.on) {
+    if (are_complete(sim)) {
         sim->evaluations++;
         sim_each_part(sim, part_forces, move);
         sim_each_part(sim, sweep_border, move);
