@@ -41,16 +41,13 @@ static enum status check_profile(const struct scene *scene, size_t number, struc
     if (!block->on)
         return STATUS_OK;
     if (block->profile.count == 0)
-        return error_set(err, STATUS_INPUT,
-                         "%s: balloons[%zu].spring_by_height: give profile = ( (height, factor), ... )",
-                         scene->path, number);
+        return scene_contradiction(scene, number, "spring_by_height", block->line, err,
+                                   "give profile = ( (height, factor), ... )");
     for (size_t i = 1; i < block->profile.count; i++)
         if (!(block->profile.row[i][0] > block->profile.row[i - 1][0]))
-            return error_set(
-                err, STATUS_INPUT,
-                "%s: balloons[%zu].spring_by_height.profile: heights must rise from row to row; row %zu "
-                "(%g) does not",
-                scene->path, number, i + 1, block->profile.row[i][0]);
+            return scene_contradiction(scene, number, "spring_by_height.profile", block->line, err,
+                                       "heights must rise from row to row; row %zu (%g) does not", i + 1,
+                                       block->profile.row[i][0]);
     return STATUS_OK;
 }
 
@@ -63,10 +60,10 @@ static enum status check_rip(const struct scene *scene, size_t number, struct er
     double normal[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     if (normal[0] != 0 || normal[1] != 0 || normal[2] != 0)
         return STATUS_OK;
-    return error_set(
-        err, STATUS_INPUT,
-        "%s: balloons[%zu].rip: place and direction must be two different directions, neither zero",
-        scene->path, number);
+    return scene_contradiction(
+        scene, number, "rip", rip->line, err,
+        "place and direction must be two different directions from the balloon's centre, neither zero: else "
+        "there is no such place on the skin");
 }
 
 /* Stable, so that of two changes at the same time the later line wins: insertion into a short list. */

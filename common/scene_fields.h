@@ -46,30 +46,30 @@
       "paper 4: one a step")                                                                                 \
     X(playback, NUMBER, 1, 240, "25", "1/s", FREE, "frames a second in the movie", "")
 
-#define SCENE_BALLOON_FIELDS(X)                                                                           \
-    X(mesh, TEXT, 0, 0, "", "file", 0, ".ply, .stl or .obj, relative to the scene file", "paper 3.4")     \
-    X(radius, NUMBER, 0, 1e6, "45", "length", 0,                                                          \
-      "mean distance of points from their centre; 0: as in the mesh", "")                                 \
-    X(position, VECTOR, -1e6, 1e6, "[0.0, 0.0, 0.0]", "length", 0, "of that centre", "")                  \
-    X(point_mass, NUMBER, 1e-9, 1e9, "0.11", "mass", 0, "of each point", "paper 3.1")                     \
-    X(spring, NUMBER, 0, 1e9, "20", "force/length", 0, "spring constant of each edge", "paper 4")         \
-    X(stiffness, CHOICE, 0, 0, "\"uniform\"", "", 0,                                                      \
-      "of the springs: all alike, or as a uniform sheet has it", "Pinkall and Polthier 1993")             \
-    X(spring_factor, NUMBER, 0, 1e6, "1", "", LIVE, "the spring constants' weight", "paper 3.5")          \
-    X(damping, NUMBER, 0, 1e9, "1", "force s/length", LIVE, "against the speed of closing along an edge", \
-      "paper 2")                                                                                          \
-    X(threshold_of, CHOICE, 0, 0, "\"mean\"", "", 0,                                                      \
-      "whose rest length the threshold is over: that of the mean edge, or each edge's own", "paper 3.5")  \
-    X(threshold, NUMBER, 1, 1e300, "2", "", LIVE, "an edge lets go at this length over the rest length",  \
-      "paper 4")                                                                                          \
-    X(pressure, NUMBER, -1e9, 1e9, "10", "force", LIVE, "on each point, along its normal", "paper 3.2")   \
-    X(pressure_on, CHOICE, 0, 0, "\"points\"", "", 0,                                                     \
-      "points: it pushes each alike, along its normal; areas: it is a force/length^2", "paper 3.2")       \
-    X(colour, VECTOR, 0, 1, "[0.85, 0.09, 0.12]", "", FREE,                                               \
-      "red, green and blue (sRGB) of the skin at rest", "")                                               \
-    X(opacity, NUMBER, 0.01, 1, "0.97", "", FREE, "of the skin at rest; it thins with the stretch",       \
-      "paper 3.3")                                                                                        \
-    X(shininess, NUMBER, 1, 1000, "12", "", FREE,                                                         \
+#define SCENE_BALLOON_FIELDS(X)                                                                              \
+    X(mesh, TEXT, 0, 0, "", "file", 0, ".ply, .stl or .obj, relative to the scene file", "paper 3.4")        \
+    X(radius, NUMBER, 0, 1e6, "45", "length", 0,                                                             \
+      "mean distance of points from their centre; 0: as in the mesh", "")                                    \
+    X(position, VECTOR, -1e6, 1e6, "[0.0, 0.0, 0.0]", "length", 0, "of that centre", "")                     \
+    X(point_mass, NUMBER, 1e-9, 1e9, "0.11", "mass", 0, "of each point", "paper 3.1")                        \
+    X(spring, NUMBER, 0, 1e9, "20", "force/length", 0, "spring constant of each edge", "paper 4")            \
+    X(stiffness, CHOICE, 0, 0, "\"uniform\"", "", 0,                                                         \
+      "of the springs: all alike, or as a uniform sheet has it", "Pinkall and Polthier 1993")                \
+    X(spring_factor, NUMBER, 0, 1e6, "1", "", LIVE, "the spring constants' weight", "paper 3.5")             \
+    X(damping, NUMBER, 0, 1e9, "1", "force s/length", LIVE, "against the speed of closing along an edge",    \
+      "paper 2")                                                                                             \
+    X(threshold_of, CHOICE, 0, 0, "\"mean\"", "", 0,                                                         \
+      "whose rest length the threshold is over: that of the mean edge, or each edge's own", "paper 3.5")     \
+    X(threshold, NUMBER, 1.001, 1e300, "2", "", LIVE, "an edge lets go at this length over the rest length", \
+      "paper 4")                                                                                             \
+    X(pressure, NUMBER, -1e9, 1e9, "10", "force", LIVE, "on each point, along its normal", "paper 3.2")      \
+    X(pressure_on, CHOICE, 0, 0, "\"points\"", "", 0,                                                        \
+      "points: it pushes each alike, along its normal; areas: it is a force/length^2", "paper 3.2")          \
+    X(colour, VECTOR, 0, 1, "[0.85, 0.09, 0.12]", "", FREE,                                                  \
+      "red, green and blue (sRGB) of the skin at rest", "")                                                  \
+    X(opacity, NUMBER, 0.01, 1, "0.97", "", FREE, "of the skin at rest; it thins with the stretch",          \
+      "paper 3.3")                                                                                           \
+    X(shininess, NUMBER, 1, 1000, "12", "", FREE,                                                            \
       "exponent of the highlight at rest; it grows with the stretch", "paper 3.3")
 
 #define SCENE_SPRING_BY_HEIGHT_FIELDS(X)                                                             \
@@ -83,7 +83,7 @@
     X(place, VECTOR, -1e6, 1e6, "[0.0, 0.0, 1.0]", "", 0,                                        \
       "middle of the cut: a direction from the balloon's centre", "")                            \
     X(direction, VECTOR, -1e6, 1e6, "[0.0, 1.0, 0.0]", "", 0, "in which the cut runs there", "") \
-    X(length, NUMBER, 0, 7, "1", "radii", 0, "of the cut along the skin", "")
+    X(length, NUMBER, 0, 6.2832, "1", "radii", 0, "of the cut along the skin; 2 pi is once around", "")
 
 #define SCENE_GROUND_FIELDS(X)                                                                           \
     X(height, NUMBER, -1e6, 1e6, "-100", "length", 0, "at which it passes the middle of the scene", "")  \
