@@ -298,13 +298,17 @@ static void bound(const struct sim *sim, const struct sim_balloon *b, const stru
             rows->stiffness[sim->triangle_point[t][k]] += stiffness * areas_size(sim, t) / 3;
 }
 
+/* Whoever asks leaves the holes as the last forces found them: what goes by them must not depend on the ledger. */
 static double energy(struct sim *sim, struct sim_balloon *b)
 {
-    const struct gas *gas = b->gas;
+    struct gas *gas = b->gas;
     if (gas->memory.gone)
         return 0;
-    return gas_energy(gas_amount(sim, gas), volume_now(sim, b), sim->scalar[gas->scalar + GAS_ENTROPY],
-                      gas->g, gas->scene->ambient);
+    const struct gas_holes holes = gas->holes;
+    const double volume = volume_now(sim, b);
+    gas->holes = holes;
+    return gas_energy(gas_amount(sim, gas), volume, sim->scalar[gas->scalar + GAS_ENTROPY], gas->g,
+                      gas->scene->ambient);
 }
 
 struct moving {

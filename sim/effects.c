@@ -106,12 +106,35 @@ static void apply(struct sim *sim, enum effect_phase phase)
             sim->hooks[phase][i].effect->apply(sim, sim->hooks[phase][i].balloon);
 }
 
-void effects_run(struct sim *sim, enum effect_phase phase)
+static void after_forces(struct sim *sim)
 {
-    apply(sim, phase);
-    for (size_t i = 0; phase == EFFECT_AFTER_STEP && i < sim->hook_count[EFFECT_FORCES]; i++)
+    for (size_t i = 0; i < sim->hook_count[EFFECT_FORCES]; i++)
         if (sim->hooks[EFFECT_FORCES][i].effect->after)
             sim->hooks[EFFECT_FORCES][i].effect->after(sim, sim->hooks[EFFECT_FORCES][i].balloon);
+}
+
+/* What is held by effects that do not tell what is in an edge or a triangle, to be counted when that goes. */
+static double held_as_a_whole(struct sim *sim)
+{
+    double energy = 0;
+    for (size_t i = 0; i < sim->hook_count[EFFECT_FORCES]; i++) {
+        const struct effect_hook *hook = &sim->hooks[EFFECT_FORCES][i];
+        if (hook->effect->energy && !hook->effect->edge_energy && !hook->effect->triangle_energy)
+            energy += hook->effect->energy(sim, hook->balloon);
+    }
+    return energy;
+}
+
+/* Nothing moves between two steps: what there is less of afterwards went at once. */
+void effects_run(struct sim *sim, enum effect_phase phase)
+{
+    const bool counted = sim->ledger.on && phase == EFFECT_AFTER_STEP;
+    const double held = counted ? held_as_a_whole(sim) : 0;
+    apply(sim, phase);
+    if (phase == EFFECT_AFTER_STEP)
+        after_forces(sim);
+    if (counted)
+        sim->ledger.account.let_go += held - held_as_a_whole(sim);
 }
 
 enum status effects_settle(struct sim *sim, struct error *err)

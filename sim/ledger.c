@@ -121,7 +121,8 @@ struct ledger_balance ledger_balance(struct sim *sim, const struct sim_measures 
     if (!ledger->on)
         return b;
     b.gas = effects_energy(sim);
-    b.dissipated = sim->scalar[ledger->first + LEDGER_DISSIPATED] + ledger->account.contact;
+    b.dissipated = sim->scalar[ledger->first + LEDGER_DISSIPATED] + ledger->account.contact +
+                   ledger->account.let_go;
     b.fracture = ledger->account.fracture;
     b.pressure_work = sim->scalar[ledger->first + LEDGER_PRESSURE];
     b.user_work = ledger->account.user;

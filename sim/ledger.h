@@ -38,9 +38,11 @@ double ledger_energy(struct sim *sim);
 
 /* All in the unit of force x length. */
 struct ledger_balance {
-    double gas;           /* held by gas, and by what else effects hold; 0 where the pressure is given */
-    double dissipated;    /* by dampers, obstacles and contact */
-    double fracture;      /* that springs held when they let go */
+    double gas;        /* held by gas, and by what else effects hold; 0 where the pressure is given */
+    double dissipated; /* by dampers, obstacles and contact, and what got out with the gas */
+    /* That springs and triangles held when they let go. A tear (topology.h) takes nothing from the skin: what a crack releases moves the skin around it,
+     * and is taken by the dampers there; what its toughness asks for is sim_measures.crack_energy. */
+    double fracture;
     double pressure_work; /* by the pressure on the points, and by what else effects bring */
     double user_work;     /* by changes of springs in the schedule */
     double error;         /* what there is and went, less what there was and came */

@@ -21,7 +21,7 @@ struct sim_log {
 static const char *const columns =
     "time\tmean_radius\tvolume\tgauge_pressure\tkinetic_energy\telastic_energy\tmax_stretch\tedges_active\t"
     "triangles_active\tarea\tpieces\tlargest_piece_area\tstep\tseconds\tgas_energy\tdissipated_energy\t"
-    "fracture_energy\tpressure_work\tuser_work\tbalance_error\tcrack_tips\ttorn_length\thole_area";
+    "fracture_energy\tpressure_work\tuser_work\tbalance_error\tcrack_tips\ttorn_length\thole_area\tcrack_energy";
 
 static void put(struct sim_log *log, const char *text, size_t bytes)
 {
@@ -85,11 +85,12 @@ void sim_log_row(struct sim_log *log, struct sim *sim, double position_error)
     const int length = snprintf(
         row, sizeof row,
         "%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%u\t%u\t%.9g\t%u\t%.9g\t%.9g\t%.3f\t%.9g\t%.9g\t%.9g\t%.9g\t"
-        "%.9g\t%.3g\t%u\t%.9g\t%.9g%s\n",
+        "%.9g\t%.3g\t%u\t%.9g\t%.9g\t%.9g%s\n",
         sim->time, m.mean_radius, m.volume, gas_gauge_pressure(sim, &sim->balloons[0]), m.kinetic_energy,
         m.elastic_energy, m.max_stretch, m.edges_active, m.triangles_active, m.area, m.pieces,
         m.largest_piece_area, sim->taken > 0 ? sim->taken : sim->step, seconds, b.gas, b.dissipated,
-        b.fracture, b.pressure_work, b.user_work, b.error, m.crack_tips, m.torn_length, m.hole_area, error);
+        b.fracture, b.pressure_work, b.user_work, b.error, m.crack_tips, m.torn_length, m.hole_area,
+        m.crack_energy, error);
     put(log, row, (size_t)length);
 }
 

@@ -136,6 +136,17 @@ static void measure_elastic(struct sim *sim, struct sim_measures *m)
             m->elastic_energy += membrane_elastic(sim, b);
 }
 
+/* Shear modulus times thickness: of springs that of a lattice of them, sqrt(3)/4 k (Seung & Nelson, Phys. Rev. A 38 (1988) 1005). */
+static double stiffness_of(const struct sim *sim, const struct sim_balloon *b)
+{
+    double sum = 0;
+    if (b->membrane)
+        return b->membrane->modulus * b->membrane->thickness;
+    for (uint32_t e = b->edge_begin; e < b->edge_end; e++) /* what was cut has halves */
+        sum += sim->current_spring_const[e];
+    return sqrt(3) / 4 * sum / (b->topology->old_edges - b->edge_begin);
+}
+
 static void measure_tears(struct sim *sim, struct sim_measures *m)
 {
     for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++) {
@@ -143,6 +154,8 @@ static void measure_tears(struct sim *sim, struct sim_measures *m)
         if (!b->fracture)
             continue;
         m->torn_length += b->topology->now.torn;
+        m->crack_energy += b->scene->fracture.toughness * b->radius * stiffness_of(sim, b) *
+                           b->topology->now.torn;
         for (uint32_t i = 0; i < b->fracture->now.tips; i++)
             m->crack_tips += b->fracture->tips[i].alive;
     }

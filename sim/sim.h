@@ -112,6 +112,7 @@ struct sim_ledger {
         double fracture; /* what springs held when they let go, and the skin where it was cut */
         double user;     /* what changes of springs added */
         double contact;  /* what obstacles and contact took */
+        double let_go;   /* what gas lost at once, as holes met, pieces fell off, or all of it was gone */
     } account;
 };
 
@@ -311,7 +312,9 @@ struct sim_measures {
     uint32_t pieces;     /* of active triangles, joined where they share an edge */
     uint32_t crack_tips; /* that may still run */
     double torn_length;  /* of all cuts, at rest */
-    double hole_area;    /* of what holds gas */
+    double
+        crack_energy; /* what their toughness asks for: toughness x mean radius x shear modulus x thickness x torn length */
+    double hole_area; /* of what holds gas */
 };
 struct sim_measures sim_measure(struct sim *sim);
 

@@ -13,9 +13,9 @@ a_file frames/frame_0080.png
 a_file sheet.png
 a_file end.ply
 [ "$(wc -l <log.tsv)" = 82 ] || fail "the log has $(wc -l <log.tsv) lines, wanted 82"
-[ "$(head -n 1 log.tsv)" = "$(printf 'time\tmean_radius\tvolume\tgauge_pressure\tkinetic_energy\telastic_energy\tmax_stretch\tedges_active\ttriangles_active\tarea\tpieces\tlargest_piece_area\tstep\tseconds\tgas_energy\tdissipated_energy\tfracture_energy\tpressure_work\tuser_work\tbalance_error\tcrack_tips\ttorn_length\thole_area')" ] ||
+[ "$(head -n 1 log.tsv)" = "$(printf 'time\tmean_radius\tvolume\tgauge_pressure\tkinetic_energy\telastic_energy\tmax_stretch\tedges_active\ttriangles_active\tarea\tpieces\tlargest_piece_area\tstep\tseconds\tgas_energy\tdissipated_energy\tfracture_energy\tpressure_work\tuser_work\tbalance_error\tcrack_tips\ttorn_length\thole_area\tcrack_energy')" ] ||
     fail "the log's header is: $(head -n 1 log.tsv)"
-awk -F'\t' 'NF != 23 || /nan|inf/ { exit 1 }' log.tsv || fail "a row of the log is not 23 numbers"
+awk -F'\t' 'NF != 24 || /nan|inf/ { exit 1 }' log.tsv || fail "a row of the log is not 24 numbers"
 
 # the energy's accounts: all is 0 at first; the burst breaks springs that held some; the error is what is left over
 awk -F'\t' 'NR == 2 { for (i = 15; i <= 20; i++) if ($i != 0) exit 1 }
