@@ -94,12 +94,22 @@ static void find_box(const struct band *band, int box[4])
         box[i] = result[i];
 }
 
-static void draw_behind_all(const struct band *band)
+/* Backdrop and shadow where the target is read from, or, with several samples a pixel, where it is drawn. A picture in one band
+ * has the same backdrop as the one before it. */
+static void draw_behind(const struct band *band, bool smoothly)
 {
     struct render *render = band->render;
+    const struct gl *gl = &render->gl;
     const struct draw_place place = {
         {band->eye->left, band->eye->bottom - band->below, band->eye->width, band->eye->height}, 1};
-    draw_behind(&render->draw, &render->gl, &place, band->eye, &render->geometry);
+    const bool keeps = !smoothly && render->target.height == band->view->height;
+    if (!keeps || !behind_fetch(&render->behind, gl, &render->target, place.viewport)) {
+        draw_backdrop(&render->draw, gl, &place);
+        if (keeps)
+            behind_keep(&render->behind, gl, &render->target, place.viewport);
+    }
+    gl->Enable(GL_SCISSOR_TEST);
+    draw_shadow(&render->draw, gl, &place, band->eye, &render->geometry);
 }
 
 /* All but the text. */
@@ -107,7 +117,7 @@ static void draw_all(const struct band *band)
 {
     struct render *render = band->render;
     const struct gl *gl = &render->gl;
-    draw_behind_all(band);
+    draw_behind(band, render->target.samples > 1);
     if (band->scene->solid)
         solid_draw_eye(&render->solid, gl, band->view, band->eye, &render->geometry, band->scene);
     draw_eye(&render->draw, gl, band->eye, &render->geometry);
@@ -123,7 +133,7 @@ static void draw_smoothly(const struct band *band)
     int box[4];
     find_box(band, box);
     target_bind_resolved(&render->target, gl);
-    draw_behind_all(band);
+    draw_behind(band, false);
     if (box[2] && box[3]) {
         target_bind_drawn(&render->target, gl);
         gl->Scissor(box[0], box[1], box[2], box[3]);
@@ -160,7 +170,8 @@ static enum status draw_strip(struct band *band, const int strip[4], struct erro
                                       band->eye->width * side, band->eye->height * side},
                                      latex ? 1 / exposure : 1};
     gl->Scissor(0, 0, strip[2] * side, strip[3] * side);
-    draw_behind(&render->draw, gl, &place, band->eye, &render->geometry);
+    draw_backdrop(&render->draw, gl, &place);
+    draw_shadow(&render->draw, gl, &place, band->eye, &render->geometry);
     if (band->scene->solid)
         solid_draw_eye(&render->solid, gl, view, band->eye, &render->geometry, band->scene);
     draw_opaque(&render->draw, gl, view->style, band->eye, &render->geometry);
@@ -180,7 +191,7 @@ static enum status draw_in_light(struct band *band, struct error *err)
     int box[4], side = band->view->samples > 1 ? band->view->samples : 1;
     enum status status = STATUS_OK;
     find_box(band, box);
-    draw_behind_all(band);
+    draw_behind(band, false);
     if (!box[2] || !box[3])
         return STATUS_OK;
     int rows = limited(LIGHT_PIXELS / (box[2] * side * side), 1, box[3]);

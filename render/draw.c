@@ -98,20 +98,37 @@ void draw_upload(const struct draw *draw, const struct gl *gl, const struct geom
                    g->indices.items, GL_STREAM_DRAW);
 }
 
-static void draw_backdrop(const struct draw *draw, const struct gl *gl, float brightness)
+static void set_place(const struct gl *gl, const struct draw_place *place)
 {
+    const int *at = place->viewport;
+    gl->Viewport(at[0], at[1], at[2], at[3]);
+    gl->Enable(GL_FRAMEBUFFER_SRGB);
     gl->Disable(GL_DEPTH_TEST);
+}
+
+void draw_backdrop(const struct draw *draw, const struct gl *gl, const struct draw_place *place)
+{
+    set_place(gl, place);
     gl->Disable(GL_BLEND);
     gl->UseProgram(draw->backdrop);
-    gl->Uniform1f(draw->backdrop_brightness, brightness);
+    gl->Uniform1f(draw->backdrop_brightness, place->brightness);
     gl->BindVertexArray(draw->nothing);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-static void draw_shadow(const struct draw *draw, const struct gl *gl, const float projection[16],
-                        const struct geometry_shadow *shadow)
+void draw_shadow(const struct draw *draw, const struct gl *gl, const struct draw_place *place,
+                 const struct camera_eye *eye, const struct geometry *geometry)
 {
-    gl->Disable(GL_DEPTH_TEST);
+    const struct geometry_shadow *shadow = &geometry->shadow;
+    float projection[16];
+    set_place(gl, place);
+    gl->DepthMask(GL_TRUE);
+    gl->Disable(GL_SCISSOR_TEST); /* clearing all is free, a part is drawn */
+    gl->Clear(GL_DEPTH_BUFFER_BIT);
+    gl->Enable(GL_SCISSOR_TEST);
+    if (!shadow->visible)
+        return;
+    camera_projection(eye, geometry->nearest, geometry->farthest, projection);
     gl->Enable(GL_BLEND);
     gl->BlendFunc(GL_DST_COLOR, GL_ZERO);
     gl->UseProgram(draw->shadow);
@@ -120,21 +137,6 @@ static void draw_shadow(const struct draw *draw, const struct gl *gl, const floa
     gl->Uniform3fv(draw->shadow_left, 1, shadow->colour);
     gl->BindVertexArray(draw->nothing);
     gl->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-}
-
-void draw_behind(const struct draw *draw, const struct gl *gl, const struct draw_place *place,
-                 const struct camera_eye *eye, const struct geometry *geometry)
-{
-    float projection[16];
-    const int *at = place->viewport;
-    camera_projection(eye, geometry->nearest, geometry->farthest, projection);
-    gl->Viewport(at[0], at[1], at[2], at[3]);
-    gl->Enable(GL_FRAMEBUFFER_SRGB);
-    draw_backdrop(draw, gl, place->brightness);
-    if (geometry->shadow.visible)
-        draw_shadow(draw, gl, projection, &geometry->shadow);
-    gl->DepthMask(GL_TRUE);
-    gl->Clear(GL_DEPTH_BUFFER_BIT);
 }
 
 static void use_skin(const struct draw *draw, const struct gl *gl, const struct draw_program *skin,

@@ -5,7 +5,8 @@
  *     struct draw draw = {0};
  *     if (draw_open(&draw, &gl, err)) ...
  *     draw_upload(&draw, &gl, &geometry);                         for each frame
- *     draw_behind(&draw, &gl, &place, &eye, &geometry);           for each eye
+ *     draw_backdrop(&draw, &gl, &place);                          for each eye
+ *     draw_shadow(&draw, &gl, &place, &eye, &geometry);
  *     draw_eye(&draw, &gl, &eye, &geometry);
  *     draw_close(&draw, &gl);
  */
@@ -47,9 +48,11 @@ void draw_upload(const struct draw *draw, const struct gl *gl, const struct geom
 enum status draw_ready(struct draw *draw, const struct gl *gl, enum render_style style, enum light_way way,
                        struct error *err);
 
-/* Sets the viewport; draws backdrop and shadow as one eye sees them, within the scissor's rectangle, and begins
- * the depth there anew. */
-void draw_behind(const struct draw *draw, const struct gl *gl, const struct draw_place *place,
+/* Sets the viewport and draws the backdrop within the scissor's rectangle. */
+void draw_backdrop(const struct draw *draw, const struct gl *gl, const struct draw_place *place);
+
+/* Over it the shadow as one eye sees it; and begins the depth there anew. */
+void draw_shadow(const struct draw *draw, const struct gl *gl, const struct draw_place *place,
                  const struct camera_eye *eye, const struct geometry *geometry);
 
 /* The skins' opaque triangles, by depth. */

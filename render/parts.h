@@ -2,6 +2,7 @@
 #ifndef RENDER_PARTS_H
 #define RENDER_PARTS_H
 
+#include "render/behind.h"
 #include "render/context.h"
 #include "render/draw.h"
 #include "render/light.h"
@@ -21,6 +22,7 @@ struct render {
     struct overlay overlay;
     struct quads quads;
     struct target target;
+    struct behind behind;
     struct light light;   /* open only once a picture wants it */
     struct stereo stereo; /* the same */
     struct geometry geometry;

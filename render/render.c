@@ -136,6 +136,7 @@ void render_close(struct render *render)
     struct error ignored;
     if (render->gl.Viewport && !render_use(render, &ignored)) {
         target_clear(&render->target, &render->gl);
+        behind_clear(&render->behind, &render->gl);
         light_close(&render->light, &render->gl);
         stereo_close(&render->stereo, &render->gl);
         draw_close(&render->draw, &render->gl);

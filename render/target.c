@@ -55,6 +55,11 @@ enum status target_bind(struct target *target, const struct gl *gl, int width, i
                      samples);
 }
 
+GLuint target_read_from(const struct target *target)
+{
+    return target->resolved ? target->resolved : target->drawn;
+}
+
 void target_bind_drawn(const struct target *target, const struct gl *gl)
 {
     gl->BindFramebuffer(GL_FRAMEBUFFER, target->drawn);
@@ -95,7 +100,7 @@ enum status target_read(struct target *target, const struct gl *gl, struct image
         target->pixels = array_new((size_t)target->width * (size_t)target->height, 4);
     if (!target->pixels)
         return error_no_memory(err, "the picture");
-    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, target->resolved ? target->resolved : target->drawn);
+    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, target_read_from(target));
     gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
     gl->ReadPixels(0, 0, target->width, rows, GL_RGBA, GL_UNSIGNED_BYTE, target->pixels);
     copy_rows(target, out, below, rows);
@@ -105,7 +110,7 @@ enum status target_read(struct target *target, const struct gl *gl, struct image
 /* The bytes are copied as they are: a window shows sRGB whether or not it knows. */
 void target_show(const struct target *target, const struct gl *gl, int below, int rows)
 {
-    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, target->resolved ? target->resolved : target->drawn);
+    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, target_read_from(target));
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     gl->Disable(GL_FRAMEBUFFER_SRGB);
     gl->BlitFramebuffer(0, 0, target->width, rows, 0, below, target->width, below + rows, GL_COLOR_BUFFER_BIT,

@@ -22,6 +22,7 @@ enum status target_bind(struct target *target, const struct gl *gl, int width, i
 /* With several samples a pixel: binds the picture of one sample that is read in the end, so that what needs
  * no smooth edges is drawn there; binds what is drawn into again; and copies a box (x, y from below, width,
  * height) of that over. */
+GLuint target_read_from(const struct target *target); /* the framebuffer of one sample */
 void target_bind_drawn(const struct target *target, const struct gl *gl);
 void target_bind_resolved(const struct target *target, const struct gl *gl);
 void target_resolve(const struct target *target, const struct gl *gl, const int box[4]);

@@ -55,18 +55,6 @@ int app_eye_x(const struct app *app, int x)
     return x >= 0 ? x % app_eye_width(app) : x;
 }
 
-struct render_view app_drawn_view(const struct app *app)
-{
-    struct render_view view = app->view;
-    if (view.stereo && view.width > 1)
-        view.width &= ~1; /* two halves */
-    orbit_camera(&app->orbit, &view.camera);
-    view.camera.eye_distance = app->eye_distance * app->orbit.distance;
-    if (app->stretch_colours)
-        view.style = RENDER_PAPER; /* whose colours are those that it is given */
-    return view;
-}
-
 /* The next tick, once a picture's time has passed since the last. */
 static void schedule(struct app *app)
 {

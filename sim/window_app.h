@@ -60,7 +60,11 @@ struct app {
     double frames_rate; /* pictures a second, of late */
     double counting;    /* app_seconds() since when pictures are counted for that */
     int pictures;
-    bool stale; /* the state is another than the log's last row */
+    struct {
+        bool on;
+        double wait, until; /* s; app_seconds() when smooth ones are tried again */
+    } rough;                /* outlines, where smooth ones would be too slow to move */
+    bool stale;             /* the state is another than the log's last row */
 
     struct frames *film; /* being recorded; NULL: nothing is */
     struct image image;
@@ -96,9 +100,6 @@ void app_restart(struct app *app);
 /* All that is left of the skin in the middle of the picture. */
 void app_see_all(struct app *app);
 
-/* The picture as it is drawn and aimed at: stereo needs an even width. */
-struct render_view app_drawn_view(const struct app *app);
-
 /* The size of one eye's picture, and a place of the window in it. */
 int app_eye_width(const struct app *app);
 int app_eye_x(const struct app *app, int x);
@@ -107,7 +108,10 @@ int app_eye_x(const struct app *app, int x);
 void app_key(void *self, int key, int modifiers);
 extern const char app_help[];
 
-/* window_draw.c: shows everything, into the window; the skin alone, into app->image. */
+/* window_draw.c: the picture as it is drawn and aimed at: stereo needs an even width. */
+struct render_view app_drawn_view(const struct app *app);
+
+/* Shows everything, into the window; the skin alone, into app->image. */
 enum status app_open_pictures(struct app *app, struct error *err); /* STATUS_NO_MEMORY */
 void app_close_pictures(struct app *app);
 void app_draw(struct app *app);

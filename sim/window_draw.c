@@ -21,6 +21,10 @@ static const double longest_scale = 6;
 
 static const double count_seconds = 0.5; /* pictures are counted over */
 
+/* Below so many frames a second outlines are drawn rough; smooth ones are tried again after this many seconds, and then after twice as
+ * many, up to the most. */
+static const double slow_rate = 30, first_wait = 4, longest_wait = 64;
+
 double app_stretch_most(const struct app *app)
 {
     const struct sim *sim = app->live.sim;
@@ -144,6 +148,20 @@ static bool make_wires(struct app *app)
     return true;
 }
 
+struct render_view app_drawn_view(const struct app *app)
+{
+    struct render_view view = app->view;
+    if (view.stereo && view.width > 1)
+        view.width &= ~1; /* two halves */
+    orbit_camera(&app->orbit, &view.camera);
+    view.camera.eye_distance = app->eye_distance * app->orbit.distance;
+    if (app->rough.on && !app->live.paused)
+        view.smooth_edges = false;
+    if (app->stretch_colours)
+        view.style = RENDER_PAPER; /* whose colours are those that it is given */
+    return view;
+}
+
 /* All but what lies on the glass. */
 static enum status make_scene(struct app *app, struct render_scene *scene, struct error *err)
 {
@@ -163,6 +181,20 @@ static enum status make_scene(struct app *app, struct render_scene *scene, struc
     return STATUS_OK;
 }
 
+/* Smooth outlines cost about as much as all the rest: a skin that moves in jerks is worse than one with rough outlines. */
+static void choose_outlines(struct app *app, double now)
+{
+    if (app->live.paused)
+        return;
+    if (app->rough.on && now >= app->rough.until) {
+        app->rough.on = false;
+    } else if (!app->rough.on && app->frames_rate < slow_rate) {
+        app->rough.on = true;
+        app->rough.wait = fmin(fmax(2 * app->rough.wait, first_wait), longest_wait);
+        app->rough.until = now + app->rough.wait;
+    }
+}
+
 static void count_frames(struct app *app, double begun)
 {
     const double now = app_seconds();
@@ -173,6 +205,7 @@ static void count_frames(struct app *app, double begun)
     app->frames_rate = app->pictures / (now - app->counting);
     app->counting = now;
     app->pictures = 0;
+    choose_outlines(app, now);
 }
 
 void app_draw(struct app *app)
@@ -202,5 +235,6 @@ enum status app_draw_image(struct app *app, struct error *err)
     enum status status = make_scene(app, &scene, err);
     view.order = app->film_view.order;
     view.samples = app->film_view.samples;
+    view.smooth_edges = app->view.smooth_edges;
     return status ? status : render_draw_scene(app->render, &view, &scene, &app->image, err);
 }
