@@ -22,6 +22,13 @@
 struct contact_pair {
     uint32_t a, b; /* point and triangle; edges, a < b */
     uint32_t kind; /* enum ccd_kind */
+    float near;    /* no nearer than this to each other on the ways that the list was made for */
+};
+
+/* How points have moved since the list was made: as a whole, and from that. A pair is still no nearer than growth x near - 2 stray. */
+struct contact_drift {
+    double growth; /* the least of all balloons, no more than 1 */
+    double stray;  /* the largest of all points */
 };
 
 struct contact {
@@ -31,14 +38,18 @@ struct contact {
     /* What the list was made for; the state, since other lists could find other touches first. */
     double (*from)[4], (*to)[4]; /* [point_count] owned */
     struct contact_memory {
-        uint64_t made;         /* lists made so far */
-        uint64_t made_in;      /* the step, from 1 */
-        uint64_t is_awake;     /* 1: the last step had pairs to look at */
-        double stray;          /* how far a point may be from `to` while the list holds */
-        uint64_t wakes, zones; /* so far: wakes; steps that needed a rigid zone */
+        uint64_t made;              /* lists made so far */
+        uint64_t made_in;           /* the step, from 1 */
+        uint64_t is_awake;          /* 1: the last step had pairs to look at */
+        double stray;               /* how far a point may be from `to` while the list holds */
+        uint64_t wakes, zones;      /* so far: wakes; steps that needed a rigid zone */
+        struct contact_drift began; /* at the present step's beginning */
+        uint64_t is_at_rest;        /* 1: made for points that stay where they are */
     } memory;
-    uint64_t listed;       /* memory.made of the list at hand; another number: to be made again */
-    uint32_t owned_broken; /* sim->broken when `owned` was found; UINT32_MAX: not yet */
+    struct contact_drift now; /* by the last contact_list_holds(), */
+    double used;              /* and the share of what may be strayed */
+    uint64_t listed;          /* memory.made of the list at hand; another number: to be made again */
+    uint32_t owned_broken;    /* sim->broken when `owned` was found; UINT32_MAX: not yet */
     unsigned char
         *owned; /* [triangle_count] of its corners and edges those that it stands for: bits 0-2 and 3-5 */
     unsigned char *point_taken, *edge_taken; /* [point_count], [edge_count] for finding that */
@@ -54,9 +65,10 @@ struct contact {
     double *strayed; /* [part_count] the largest square; owned */
 };
 
-/* contact_pairs.c: makes the list anew for the ways of this step, or again for those that it was made for. STATUS_RANGE when more is near than there is
- * room for. */
+/* contact_pairs.c: makes the list anew for the ways of this step; once that is over for the steps to come, which is less work; or again for what it was
+ * made for. STATUS_RANGE when more is near than there is room for. */
 enum status contact_list_make(struct sim *sim, struct error *err);
+enum status contact_list_make_ahead(struct sim *sim, struct error *err);
 enum status contact_list_find(struct sim *sim, struct error *err);
 /* Whether the list at hand holds for the present step's ways. */
 bool contact_list_holds(struct sim *sim);

@@ -83,9 +83,11 @@ static void take_pair(const struct finder *f, struct contact_pair pair)
         return;
     contact_gather(c->from, p, from);
     contact_gather(c->to, p, to);
-    if (ccd_distance((enum ccd_kind)pair.kind, from, &touch) >
-        ccd_approach((enum ccd_kind)pair.kind, from, to) + room)
+    const double near = ccd_distance((enum ccd_kind)pair.kind, from, &touch) -
+                        ccd_approach((enum ccd_kind)pair.kind, from, to);
+    if (near > room)
         return;
+    pair.near = (float)(near - 1e-6 * fabs(near)); /* rounded down */
     const uint32_t place = __atomic_fetch_add(&c->pair_count, 1, __ATOMIC_RELAXED);
     if (place < c->pair_capacity)
         c->pairs[place] = pair;
@@ -95,7 +97,7 @@ static void take_points(const struct finder *f, uint32_t t, uint32_t u)
 {
     for (int k = 0; k < 3; k++)
         if (f->contact->owned[t] >> k & 1)
-            take_pair(f, (struct contact_pair){f->sim->triangle_point[t][k], u, CCD_POINT_TRIANGLE});
+            take_pair(f, (struct contact_pair){f->sim->triangle_point[t][k], u, CCD_POINT_TRIANGLE, 0});
 }
 
 static void take_triangles(void *context, uint32_t t, uint32_t u)
@@ -107,14 +109,14 @@ static void take_triangles(void *context, uint32_t t, uint32_t u)
         for (int j = 0; j < 3; j++)
             if (f->contact->owned[t] >> (i + 3) & f->contact->owned[u] >> (j + 3) & 1) {
                 const uint32_t a = f->sim->triangle_edge[t][i], b = f->sim->triangle_edge[u][j];
-                take_pair(f, (struct contact_pair){a < b ? a : b, a < b ? b : a, CCD_EDGES});
+                take_pair(f, (struct contact_pair){a < b ? a : b, a < b ? b : a, CCD_EDGES, 0});
             }
 }
 
 enum status contact_list_find(struct sim *sim, struct error *err)
 {
     struct contact *c = sim->contact;
-    struct contact_ways ways = {c->from, c->to, c->memory.stray, c->thickness};
+    struct contact_ways ways = {c->memory.is_at_rest ? c->to : c->from, c->to, c->memory.stray, c->thickness};
     struct finder finder = {sim, c};
     if (c->owned_broken != sim->broken || c->listed + 1 != c->memory.made)
         find_owned(sim, c);
@@ -147,15 +149,28 @@ static double choose_stray(const struct sim *sim)
     return least / 10;
 }
 
-enum status contact_list_make(struct sim *sim, struct error *err)
+static enum status make(struct sim *sim, double (*from)[4], struct error *err)
 {
     struct contact *c = sim->contact;
-    memcpy(c->from, sim->before, sim->point_count * sizeof *c->from);
+    memcpy(c->from, from, sim->point_count * sizeof *c->from);
     memcpy(c->to, sim->position, sim->point_count * sizeof *c->to);
     c->memory.made++;
     c->memory.stray = choose_stray(sim);
-    c->memory.made_in = sim->steps;
+    c->memory.is_at_rest = from == sim->position;
+    c->memory.began = c->now = (struct contact_drift){.growth = 1};
+    c->used = 0;
     return contact_list_find(sim, err);
+}
+
+enum status contact_list_make(struct sim *sim, struct error *err)
+{
+    sim->contact->memory.made_in = sim->steps;
+    return make(sim, sim->before, err);
+}
+
+enum status contact_list_make_ahead(struct sim *sim, struct error *err)
+{
+    return make(sim, sim->position, err);
 }
 
 /* A balloon that moves and grows as a whole brings nothing nearer to itself: x = middle + growth (to - its middle). Of a sample of points,
@@ -198,17 +213,16 @@ struct stray_job {
 static void stray_part(struct sim *sim, const struct sim_part *part, void *context)
 {
     const struct stray_job *job = context;
-    double(*to)[4] = sim->contact->to;
-    const struct motion m = *job->motion;
+    const struct motion *m = job->motion;
+    const row *position = (const row *)sim->position, *to = (const row *)sim->contact->to;
+    const row shift = {m->middle[0] - m->growth * m->from[0], m->middle[1] - m->growth * m->from[1],
+                       m->middle[2] - m->growth * m->from[2], 0};
     double largest = 0;
     if (part->balloon != job->balloon)
         return;
     for (uint32_t p = part->point_begin; p < part->point_end; p++) {
-        double square = 0;
-        for (int i = 0; i < 3; i++) {
-            const double off = sim->position[p][i] - m.middle[i] - m.growth * (to[p][i] - m.from[i]);
-            square += off * off;
-        }
+        const row off = position[p] - m->growth * to[p] - shift, squares = off * off;
+        const double square = squares[0] + squares[1] + squares[2];
         largest = square > largest ? square : largest;
     }
     sim->contact->strayed[part - sim->parts] = largest;
@@ -223,7 +237,7 @@ static bool is_alone(const struct sim *sim)
 /* Distances between images of points under a motion grow with it, but the room that is wanted does not: what shrinks has less to stray. */
 static bool balloon_holds(struct sim *sim, const struct sim_balloon *b)
 {
-    const struct contact *c = sim->contact;
+    struct contact *c = sim->contact;
     struct motion motion = {.growth = 1};
     if (is_alone(sim) && c->memory.made_in != sim->steps)
         motion = motion_of(sim, b);
@@ -234,11 +248,16 @@ static bool balloon_holds(struct sim *sim, const struct sim_balloon *b)
     for (size_t i = 0; i < sim->part_count; i++)
         if (sim->parts[i].balloon == b)
             largest = fmax(largest, c->strayed[i]);
+    c->now.growth = fmin(c->now.growth, growth);
+    c->now.stray = fmax(c->now.stray, sqrt(largest));
+    c->used = fmax(c->used, sqrt(largest) / allowed);
     return allowed > 0 && largest <= allowed * allowed;
 }
 
 bool contact_list_holds(struct sim *sim)
 {
+    sim->contact->now = (struct contact_drift){.growth = 1};
+    sim->contact->used = 0;
     for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
         if (!balloon_holds(sim, b))
             return false;

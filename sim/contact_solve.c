@@ -7,6 +7,7 @@
 #include <string.h>
 
 enum { ROUNDS_MAX = 40 };
+#define SOON 0.75 /* of what may be strayed: the next step would hardly end within it */
 
 /* Ways that a pair may go, and how near. */
 struct approach {
@@ -35,6 +36,7 @@ struct look {
     const struct sim *sim;
     bool zones;
     uint32_t *hit_count;
+    double growth, far; /* pairs whose near x growth is more than that do not touch */
 };
 
 enum { PAIRS_AT_ONCE = 256 };
@@ -50,6 +52,8 @@ static void look_at(void *context, size_t index, unsigned worker)
     for (uint32_t i = begin; i < end; i++) {
         struct approach a;
         uint32_t p[4];
+        if ((double)c->pairs[i].near * look->growth > look->far)
+            continue;
         contact_points(sim, &c->pairs[i], p);
         if (!(c->stirred[p[0]] | c->stirred[p[1]] | c->stirred[p[2]] | c->stirred[p[3]]))
             continue;
@@ -98,7 +102,9 @@ bool contact_look(struct sim *sim, bool zones)
 {
     struct contact *c = sim->contact;
     c->hit_count = 0;
-    struct look look = {sim, zones, &c->hit_count};
+    const struct contact_drift *a = &c->memory.began, *b = &c->now;
+    struct look look = {sim, zones, &c->hit_count, fmin(a->growth, b->growth),
+                        2 * fmax(a->stray, b->stray) + c->thickness / 2};
     threads_run(sim->pool, (c->pair_count + PAIRS_AT_ONCE - 1) / PAIRS_AT_ONCE, look_at, &look);
     sort_hits(c);
     return c->hit_count > 0;
@@ -239,5 +245,8 @@ enum status contact_settle(struct sim *sim, struct error *err)
     if (hits && !status)
         status = contact_freeze(sim, err);
     sim->changed |= touched;
+    c->memory.began = c->now;
+    if (!status && c->used > SOON)
+        status = contact_list_make_ahead(sim, err);
     return status;
 }

@@ -221,33 +221,45 @@ static void normal_of(double (*x)[4], const uint32_t *p, double normal[3], doubl
     *sides = vec3_length(ab) + vec3_length(ac);
 }
 
-/* With the corners off by `stray` each, two sides a and b are off by up to 2 stray, and the normal by 2 stray (|a| + |b|) + 4 stray^2. */
-static uint32_t sides_of(const struct contact_ways *ways, const uint32_t *p)
+/* The three vectors that its normal is made of on the way; one of them where it stays. Returns how many. */
+static int normals_of(const struct contact_ways *ways, const uint32_t *p, double n[3][3], double *perimeter)
 {
-    double n[3][3], d[4][4], ignored, sides;
-    normal_of(ways->from, p, n[0], &ignored);
-    normal_of(ways->to, p, n[2], &sides);
+    double rows[3][4] = {{0}}, turn[3], ignored;
     const uint32_t own[3] = {0, 1, 2};
+    normal_of(ways->to, p, n[0], perimeter);
+    *perimeter += vec3_distance(ways->to[p[1]], ways->to[p[2]]);
+    if (ways->from == ways->to)
+        return 1;
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 3; i++)
-            d[k][i] = ways->to[p[k]][i] - ways->from[p[k]][i];
-    normal_of(d, own, n[1], &ignored);
+            rows[k][i] = ways->to[p[k]][i] - ways->from[p[k]][i];
+    normal_of(ways->from, p, n[2], &ignored);
+    normal_of(rows, own, turn, &ignored);
     for (int i = 0; i < 3; i++)
-        n[1][i] = (n[0][i] + n[2][i] - n[1][i]) / 2;
-    const double slack = 2 * ways->stray * sides + 4 * ways->stray * ways->stray;
+        n[1][i] = (n[0][i] + n[2][i] - turn[i]) / 2;
+    return 3;
+}
+
+/* The normal is a x b + b x c + c x a. With the corners off by `stray` each it is off by up to stray times the sides' sum, and by twice the area
+ * of a triangle in a sphere of that radius: no more than 3 sqrt(3)/2 stray^2. */
+static uint32_t sides_of(const struct contact_ways *ways, const uint32_t *p)
+{
+    double n[3][3], perimeter;
+    const int count = normals_of(ways, p, n, &perimeter);
+    const double slack = ways->stray * perimeter + 2.6 * ways->stray * ways->stray;
     double least[SIDES + 3], most[SIDES + 3];
-    for (int s = 0; s < SIDES + 3; s++) {
-        double along[3];
-        for (int i = 0; i < 3; i++)
-            along[i] = n[i][0] * side[0][s] + n[i][1] * side[1][s] + n[i][2] * side[2][s];
-        const double low = along[0] < along[1] ? along[0] : along[1],
-                     high = along[0] > along[1] ? along[0] : along[1];
-        least[s] = (low < along[2] ? low : along[2]) - slack * side_length[s];
-        most[s] = (high > along[2] ? high : along[2]) + slack * side_length[s];
-    }
+    for (int s = 0; s < SIDES + 3; s++)
+        least[s] = most[s] = n[0][0] * side[0][s] + n[0][1] * side[1][s] + n[0][2] * side[2][s];
+    for (int i = 1; i < count; i++)
+        for (int s = 0; s < SIDES + 3; s++) {
+            const double along = n[i][0] * side[0][s] + n[i][1] * side[1][s] + n[i][2] * side[2][s];
+            least[s] = along < least[s] ? along : least[s];
+            most[s] = along > most[s] ? along : most[s];
+        }
     uint32_t bits = 0;
     for (int s = 0; s < SIDES; s++)
-        bits |= (uint32_t)(least[s] > 0) << s | (uint32_t)(most[s] < 0) << (s + SIDES);
+        bits |= (uint32_t)(least[s] > slack * side_length[s]) << s |
+                (uint32_t)(most[s] < -slack * side_length[s]) << (s + SIDES);
     return bits;
 }
 

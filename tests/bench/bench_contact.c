@@ -51,8 +51,8 @@ int main(void)
         {"ground", "ground.height=-200", "balloons[0].pressure=3", 100, 4},
         {"needle", "needles[0].from=[500,0,0]", "balloons[0].pressure=3", 100, 4},
         {"contact", "contact.thickness=0.15", "balloons[0].pressure=3", 100, 4},
-        {"folding", NULL, "balloons[0].pressure=-1", 25, 10},
-        {"folding, c.", "contact.thickness=0.15", "balloons[0].pressure=-1", 25, 10},
+        {"folding", NULL, "balloons[0].pressure=-1", 25, 2},
+        {"folding, c.", "contact.thickness=0.15", "balloons[0].pressure=-1", 25, 8},
     };
     struct mesh mesh = {0};
     shape_icosphere(5, &mesh);
