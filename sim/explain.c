@@ -1,41 +1,108 @@
 #include "sim/explain.h"
 #include "sim/sim.h"
 
+#include <math.h>
 #include <string.h>
 
-/* What tests/bench/bench_effects measures at 20 thousand triangles on one thread, in % of a step of springs with
- * constant pressure; "none" for what acts once or on single points. */
-static const struct {
-    const char *name, *needs, *share;
-} costs[] = {
-    {"spring_by_height", "a factor an edge, once", "none"},
-    {"rip", "a look at the mean stretch a step, until it opens", "none"},
-    {"pressure_on", "a second pass over the points; no roots", "-9 %"},
-    {"gas", "the volume, then a second pass over the points; no roots", "-6 %"},
-    {"tube", "two pressures", "none"},
-    {"pins", "a byte for each held point", "none"},
-    {"string", "a patch of points; six numbers where a weight hangs on it", "none"},
-    {"gravity", "a pass over the points", "4 %"},
-    {"drag", "a pass over the triangles", "40 %"},
-    {"bending", "a pass over the edges; 33 bytes a triangle and more", "105 %"},
-    {"membrane", "44 bytes a triangle", "30 %"},
+/* Work on one point, edge or triangle: rows (or as many bytes) read and written, operations on four numbers at once, and roots and
+ * divisions; with what a step saves by going through memory once (sweep.h), and what a rare pass comes to for each step. */
+struct work {
+    double rows, operations, roots;
 };
 
-static void write_cost(const char *name, FILE *stream)
+/* What they take, a row being 1. tests/bench/bench_effects prints what comes of it beside what it measures. */
+static double price(const struct work *work, double count)
 {
-    for (size_t i = 0; i < sizeof costs / sizeof costs[0]; i++)
-        if (!strcmp(costs[i].name, name)) {
-            fprintf(stream, "\tneeds %s; adds to a step: %s", costs[i].needs, costs[i].share);
-            return;
-        }
+    return count * (work->rows + 0.5 * work->operations + 2 * work->roots);
 }
 
-static void write_effect(const struct scene *scene, const struct effect *effect, FILE *stream)
+/* Of a closed skin, for each triangle. */
+static const double points = 0.5, edges = 1.5;
+
+/* The paper's step with symplectic Euler (forces.c). */
+static const struct work step_point = {10, 4, 2}, step_edge = {9, 12, 2}, step_triangle = {9, 8, 2};
+
+/* What an effect adds for a point, an edge and a triangle; nothing worth counting: it acts once, or on single points. */
+static const struct cost {
+    const char *name, *needs;
+    struct work point, edge, triangle;
+} costs[] = {
+    {"spring_by_height", "a factor an edge, once", {0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
+    {"rip", "a look at the mean stretch a step, until it opens", {0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
+    {"membrane", "44 bytes a triangle, in place of the springs", {0, 0, 0}, {-9, -12, -2}, {14, 100, 2}},
+    {"bending", "a pass over the edges; 33 bytes a triangle and more", {0, 0, 0}, {16, 60, 2}, {0, 0, 0}},
+    {"viscosity", "a length an edge, which is integrated too", {0, 0, 0}, {24, 110, 10}, {0, 0, 0}},
+    {"plasticity", "a length an edge", {0, 0, 0}, {4, 8, 2}, {0, 0, 0}},
+    {"pressure_on", "a second pass over the points; no roots", {4, 4, -1}, {0, 0, 0}, {0, -1, -2}},
+    {"gas", "the volume, then a second pass over the points; no roots", {6, 6, -1}, {0, 0, 0}, {0, -1, -2}},
+    {"tube", "two pressures", {0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
+    {"needles", "where points were; a look at the triangles in its way", {6, 6, 0}, {6, 8, 0}, {6, 6, 0}},
+    {"ground", "where points were; a look at each", {10, 12, 0}, {6, 8, 0}, {0, 0, 0}},
+    {"obstacles", "where points were; a look at each", {10, 14, 0}, {6, 8, 0}, {0, 0, 0}},
+    {"contact",
+     "260 bytes a triangle, and where points were; while nothing is near anything a look at each point, and now and then at all "
+     "triangles (folded skin takes many times that)",
+     {6, 8, 0},
+     {2, 2, 0},
+     {5, 8, 0.5}},
+    {"gravity", "a pass over the points", {5, 4, 0}, {0, 0, 0}, {0, 0, 0}},
+    {"drag", "a row a point, and more work on each triangle", {4, 1, 0}, {0, 0, 0}, {9, 10, 0}},
+    {"string", "a patch of points; six numbers where a weight hangs on it", {0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
+    {"pins", "a byte for each held point", {0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
+    {"fracture",
+     "a row a triangle and room for cracks; a look at each triangle, and work where one comes near its strength",
+     {0, 0, 0},
+     {0, 0, 0},
+     {1, 2, 0}},
+};
+
+static const struct cost *cost_of(const struct effect *effect)
+{
+    for (size_t i = 0; i < sizeof costs / sizeof costs[0]; i++)
+        if (!strcmp(costs[i].name, effect->name))
+            return &costs[i];
+    return NULL;
+}
+
+/* How many of the balloons call for it. */
+static size_t count_wanted(const struct effect *effect, const struct scene *scene)
 {
     size_t wanted = 0;
     for (size_t i = 0; i < scene->balloon_count && effect->wanted; i++)
         wanted += effect->wanted(&scene->balloons[i]);
-    const bool on = effect->scene_wanted ? effect->scene_wanted(scene) : wanted > 0;
+    return wanted;
+}
+
+double explain_share(const struct effect *effect, const struct scene *scene)
+{
+    const struct cost *cost = cost_of(effect);
+    const double step = price(&step_point, points) + price(&step_edge, edges) + price(&step_triangle, 1);
+    const double part = effect->scene_wanted
+                            ? effect->scene_wanted(scene)
+                            : (double)count_wanted(effect, scene) / (double)scene->balloon_count;
+    if (!cost)
+        return 0;
+    return part * (price(&cost->point, points) + price(&cost->edge, edges) + price(&cost->triangle, 1)) /
+           step;
+}
+
+static void write_cost(const struct effect *effect, const struct scene *scene, FILE *stream)
+{
+    const struct cost *cost = cost_of(effect);
+    const double share = explain_share(effect, scene);
+    if (!cost)
+        return;
+    fprintf(stream, "\tneeds %s; adds to a step: ", cost->needs);
+    if (fabs(share) < 0.005)
+        fputs("none", stream);
+    else
+        fprintf(stream, "%.0f %%", 100 * share);
+}
+
+static void write_effect(const struct scene *scene, const struct effect *effect, FILE *stream)
+{
+    const size_t wanted = count_wanted(effect, scene);
+    const bool on = effect_is_wanted(effect, scene);
     fprintf(stream, "%s\t%s\t", on ? "on" : "off", effect->name);
     if (effect->scene_wanted)
         fprintf(stream, on ? "the scene has the block" : "the scene has no such block");
@@ -46,7 +113,7 @@ static void write_effect(const struct scene *scene, const struct effect *effect,
     if (on)
         fprintf(stream, " (%s)", effect->source);
     if (on)
-        write_cost(effect->name, stream);
+        write_cost(effect, scene, stream);
     fputc('\n', stream);
 }
 
