@@ -14,7 +14,8 @@ const char app_help[] = "left       prick, drag: pull     middle, alt+left  turn
                         "\n"
                         "home f  see all   1 3 7  front, right, top (ctrl: the other side)\n"
                         "v  stereo         w  wires       c  colours by stretch\n"
-                        "s  latex or the paper's look     tab  sliders and plot\n"
+                        "s  latex or the paper's look     o  order of layers\n"
+                        "tab  sliders and plot\n"
                         "m  record a movie, end it        p  save a picture\n"
                         "ctrl+q  quit                     F1 ?  this help";
 
@@ -77,6 +78,21 @@ static bool time_key(struct app *app, int key)
     }
 }
 
+/* Exact orders are for films; here they show what sorting gets wrong. */
+static void change_order(struct app *app)
+{
+    static const struct {
+        enum render_order next;
+        const char *text; /* of the next */
+    } orders[] = {[RENDER_NONE] = {RENDER_SORT, "layers: sorted by their middles"},
+                  [RENDER_SORT] = {RENDER_LIST, "layers: exact, by a list for each pixel"},
+                  [RENDER_LIST] = {RENDER_PEEL, "layers: exact, peeled one by one"},
+                  [RENDER_PEEL] = {RENDER_NONE, "layers: as they come"}};
+    const enum render_order before = app->view.order;
+    app->view.order = orders[before].next;
+    app_say(app, orders[before].text);
+}
+
 static void view_key(struct app *app, int key, int modifiers)
 {
     if (orbit_key(&app->orbit, key, modifiers & WINDOW_CTRL))
@@ -91,6 +107,9 @@ static void view_key(struct app *app, int key, int modifiers)
         break;
     case 's':
         app->view.style = app->view.style == RENDER_LATEX ? RENDER_PAPER : RENDER_LATEX;
+        break;
+    case 'o':
+        change_order(app);
         break;
     case 'w':
         app->wires = (app->wires + 1) % WIRES_KINDS;

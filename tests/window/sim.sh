@@ -18,7 +18,7 @@ log_has "three single steps are not 0.075 s" 'near((at(-1, "time") / 0.025) % 1,
 open_live
 pause
 press period
-for key in 1 3 7 ctrl+1 ctrl+3 ctrl+7 Home f s c w w w v v v Tab Tab F1; do
+for key in 1 3 7 ctrl+1 ctrl+3 ctrl+7 Home f s o o o o c w w w v v v Tab Tab F1; do
     press $key
     picture "key-$key"
 done
