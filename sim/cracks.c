@@ -58,36 +58,45 @@ static void rest_normal(const struct sim *sim, const struct sim_balloon *b, cons
     crack_unit(normal);
 }
 
-/* Two ways at once, each near `FORK` from the heading. Points of a rim between them keep a triangle at least. */
-static bool fork(struct sim *sim, struct sim_balloon *b, struct crack_tip *tip, const struct ring *ring)
+/* The spokes into whole skin that are nearest to 34 degrees off the heading, to either side; false: there are none. */
+static bool find_fork(struct sim *sim, struct sim_balloon *b, const struct crack_tip *tip,
+                      const struct ring *ring, int spoke[2])
 {
     const double wanted = 0.6; /* 34 degrees */
     double normal[3], best[2] = {0.6, 0.6};
-    int spoke[2] = {-1, -1};
+    spoke[0] = spoke[1] = -1;
     rest_normal(sim, b, ring, normal);
     for (int i = 2; i <= ring->count - 2; i++) {
         const double angle = angle_of(sim, b, tip, ring, i, normal);
         const int side = angle > 0;
         const double off = fabs(fabs(angle) - wanted);
-        if (off < best[side] && crack_may_cut(sim, b, ring, i, 2)) {
+        if (off < best[side] && !fracture_is_rim(sim, b, crack_spoke_end(sim, ring, i)) &&
+            crack_may_cut(sim, b, ring, i, 2)) {
             best[side] = off;
             spoke[side] = i;
         }
     }
-    if (spoke[0] < 0 || spoke[1] < 0 || !topology_can_cut(sim, b))
+    return spoke[0] >= 0 && spoke[1] >= 0;
+}
+
+/* Two ways at once. Between them is a triangle at least. */
+static bool fork(struct sim *sim, struct sim_balloon *b, struct crack_tip *tip, const struct ring *ring)
+{
+    int spoke[2];
+    if (!find_fork(sim, b, tip, ring, spoke))
         return false;
-    const uint32_t point = tip->point, end = crack_spoke_end(sim, ring, spoke[1]);
+    const uint32_t end = crack_spoke_end(sim, ring, spoke[1]);
+    const struct fan beside = ring->fan[(spoke[1] + ring->count - 1) % ring->count];
+    const struct crack_tip forked = {.ready = tip->ready};
     tip->alive = 0;
-    crack_run_along(sim, b, ring, spoke[0], 0);
+    crack_run_along(sim, b, ring, spoke[0], &forked);
     /* what is left of the ring: one of the two points has the other spoke */
     struct ring rest;
-    const struct fan f = ring->fan[(spoke[1] + ring->count - 1) % ring->count];
-    const uint32_t now = sim->triangle_point[f.triangle][f.corner];
-    (void)point;
-    if (topology_can_cut(sim, b) && crack_take_ring(sim, b, now, &rest))
+    const uint32_t point = sim->triangle_point[beside.triangle][beside.corner];
+    if (topology_can_cut(sim, b) && crack_take_ring(sim, b, point, &rest))
         for (int i = 1; i < rest.count; i++)
             if (crack_spoke_end(sim, &rest, i) == end) {
-                crack_run_along(sim, b, &rest, i, 0);
+                crack_run_along(sim, b, &rest, i, &forked);
                 break;
             }
     return true;
@@ -158,11 +167,11 @@ static void advance(struct sim *sim, struct sim_balloon *b, struct crack_tip *ti
         return;
     }
     tip->alive = 0;
-    crack_run_along(sim, b, &ring, spoke, tip->run);
+    crack_run_along(sim, b, &ring, spoke, &(struct crack_tip){.ready = tip->ready, .run = tip->run});
 }
 
-/* A strand, stretched past all bearing, is cut across: at a corner on a rim, along the spoke with the largest tension across. */
-void fracture_snap(struct sim *sim, struct sim_balloon *b, uint32_t triangle)
+/* At a corner on a rim, along the spoke with the largest tension across. */
+bool fracture_snap(struct sim *sim, struct sim_balloon *b, uint32_t triangle)
 {
     const struct fracture *f = b->fracture;
     struct ring ring;
@@ -172,7 +181,7 @@ void fracture_snap(struct sim *sim, struct sim_balloon *b, uint32_t triangle)
     for (int k = 0; k < 3; k++) {
         const uint32_t p = sim->triangle_point[triangle][k];
         if (f->stamp[p - b->point_begin] == f->stamps)
-            return;
+            return false;
         if (!crack_take_ring(sim, b, p, &ring) || ring.closed)
             continue;
         for (int i = 1; i < ring.count; i++) {
@@ -184,8 +193,10 @@ void fracture_snap(struct sim *sim, struct sim_balloon *b, uint32_t triangle)
             }
         }
     }
-    if (spoke >= 0 && topology_can_cut(sim, b) && crack_take_ring(sim, b, point, &ring))
-        crack_run_along(sim, b, &ring, spoke, 0);
+    if (spoke < 0 || !topology_can_cut(sim, b) || !crack_take_ring(sim, b, point, &ring))
+        return false;
+    crack_run_along(sim, b, &ring, spoke, NULL);
+    return true;
 }
 
 void fracture_tips(struct sim *sim, struct sim_balloon *b)

@@ -39,16 +39,18 @@ double *crack_rest(const struct sim_balloon *balloon, uint32_t point);
 double crack_rest_direction(const struct sim_balloon *balloon, uint32_t from, uint32_t to,
                             double direction[3]);
 
-/* Whether a spoke can be cut so that points of a rim keep `least` triangles to either side, and no piece falls off that is too small. */
+/* Whether a spoke can be cut so that a point of a rim keeps `least` triangles to either side, one at the far end if that lies on a rim
+ * too, and no piece falls off that is too small. */
 bool crack_may_cut(struct sim *sim, struct sim_balloon *balloon, const struct ring *ring, int spoke,
                    int least);
 
-/* Cuts a spoke of a ring that was taken since the last cut; its end becomes a tip that has run so far, unless it lay on a rim. */
+/* Cuts a spoke of a ring that was taken since the last cut; its end becomes a tip that goes on from `tip`, or one that starts here (NULL),
+ * unless it lay on a rim. */
 void crack_run_along(struct sim *sim, struct sim_balloon *balloon, const struct ring *ring, int spoke,
-                     double run);
+                     const struct crack_tip *tip);
 
-/* A triangle stretched past all bearing is cut across. */
-void fracture_snap(struct sim *sim, struct sim_balloon *balloon, uint32_t triangle);
+/* Cuts across a triangle that is stretched past all bearing; false: it has no corner on a rim, or nothing there may be cut. */
+bool fracture_snap(struct sim *sim, struct sim_balloon *balloon, uint32_t triangle);
 
 bool fracture_is_rim(const struct sim *sim, const struct sim_balloon *balloon, uint32_t point);
 

@@ -248,13 +248,37 @@ static void births(struct sim *sim, struct sim_balloon *b)
     open_at(sim, b, point, 0.05 * f->radius);
 }
 
-/* Strands between pieces hold twice what whole skin does, and then snap. */
-static void snap_strands(struct sim *sim, struct sim_balloon *b)
+/* Near a cut that is so young that the waves it made are not yet gone: there is more tension there than will stay. */
+static bool is_near_cut(const struct sim *sim, const struct sim_balloon *b, const double place[3])
 {
     const struct fracture *f = b->fracture;
-    for (uint32_t t = b->triangle_begin; t < b->triangle_end && f->now.births > 0; t++)
-        if (f->energy[t - b->triangle_begin] >= 2 * f->whole_energy)
-            fracture_snap(sim, b, t);
+    const double reach = 0.15 * f->radius;
+    for (uint32_t i = 0; i < f->now.tips; i++)
+        if (sim->time < f->tips[i].since + reach / f->wave_speed &&
+            vec3_distance(crack_rest(b, f->tips[i].point), place) < reach)
+            return true;
+    return false;
+}
+
+/* Strands between pieces hold twice what whole skin does, and then snap: the most stretched first. Within a look one does, so that the others
+ * learn of it. */
+static void snap_strands(struct sim *sim, struct sim_balloon *b)
+{
+    enum { TRIES = 16 };
+    const struct fracture *f = b->fracture;
+    double below = INFINITY;
+    for (int i = 0; i < TRIES && f->now.births > 0; i++) {
+        double most = 2 * f->whole_energy;
+        uint32_t found = MESH_NONE;
+        for (uint32_t t = 0; t < b->triangle_end - b->triangle_begin; t++)
+            if (f->energy[t] >= most && f->energy[t] < below && !is_near_cut(sim, b, f->middle[t])) {
+                most = f->energy[t];
+                found = t;
+            }
+        if (found == MESH_NONE || fracture_snap(sim, b, b->triangle_begin + found))
+            return;
+        below = most;
+    }
 }
 
 void fracture_step(struct sim *sim, struct sim_balloon *b)

@@ -11,7 +11,9 @@
  * energy per area of crack, so that the mesh's size drops out). It takes the edge with the largest tension across, forwards only, and then
  * rests for as long as a tip of `tip_speed` c takes to go there.
  * Forks. Where the skin ahead holds more than `branching` would, a tip goes two ways, and not again before it has run `spacing` R sqrt(W_branching/W).
- * Strands. What holds pieces together snaps at twice the W of whole skin.
+ * Strands. What holds pieces together snaps at twice the W of whole skin, the most stretched first, one in a look; not near cuts that are as
+ * young as waves need to go there, since what a tip has left behind has yet to relax.
+ * Rims. A tip that comes to a rim runs through it, however narrow what is left: were ligaments kept, their width would be the mesh's.
  * Strongest first, and nothing twice in a neighbourhood that has changed in this step.
  */
 #ifndef SIM_FRACTURE_H
@@ -26,6 +28,7 @@ enum { TIPS_MAX = 512, BIRTHS_MAX = 128 };
 struct crack_tip {
     double heading[3]; /* unit, at rest */
     double ready;      /* s: when it may go on */
+    double since;      /* s: when it was cut */
     double run;        /* at rest, since it forked last */
     uint32_t point;
     uint32_t alive;

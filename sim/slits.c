@@ -80,7 +80,6 @@ static int far_side(const struct sim *sim, const struct sim_balloon *b, uint32_t
     return before < after ? before : after;
 }
 
-/* A point of a rim keeps `least` triangles to either side of a cut. */
 bool crack_may_cut(struct sim *sim, struct sim_balloon *b, const struct ring *ring, int spoke, int least)
 {
     if (!ring->closed && (spoke < least || spoke > ring->count - least))
@@ -94,7 +93,7 @@ bool crack_may_cut(struct sim *sim, struct sim_balloon *b, const struct ring *ri
         return true;
     /* its triangle before the spoke, seen from the far end, comes after it */
     const struct fan g = ring->fan[spoke % ring->count];
-    if (far_side(sim, b, end, g.triangle) < least)
+    if (far_side(sim, b, end, g.triangle) < 1)
         return false;
     return ring->closed || fracture_leaves_pieces(sim, b, f.triangle, side);
 }
@@ -130,33 +129,36 @@ static void cut_spoke(struct sim *sim, struct sim_balloon *b, const struct ring 
     mark(sim, b, end);
 }
 
-static void add_tip(struct sim *sim, struct sim_balloon *b, uint32_t from, uint32_t point, double run)
+/* `from` is the tip that got there, NULL for a new crack. It rests as long as it takes to go there from when it was last ready, but for the
+ * step that it had to wait for. */
+static void add_tip(struct sim *sim, struct sim_balloon *b, const struct crack_tip *from, uint32_t start,
+                    uint32_t point)
 {
     struct fracture *f = b->fracture;
+    struct crack_tip tip = {.point = point, .alive = 1, .since = sim->time};
+    const double length = crack_rest_direction(b, start, point, tip.heading);
+    const double began = from ? fmax(from->ready, sim->time - sim->step) : sim->time;
+    tip.ready = began + length / (b->scene->fracture.tip_speed * f->wave_speed);
+    tip.run = length + (from ? from->run : 0);
     uint32_t i = 0;
     while (i < f->now.tips && f->tips[i].alive)
         i++;
     if (i == TIPS_MAX)
         return;
-    struct crack_tip *tip = &f->tips[i];
-    const double length = crack_rest_direction(b, from, point, tip->heading);
-    tip->ready = sim->time + length / (b->scene->fracture.tip_speed * f->wave_speed);
-    tip->run = run + length;
-    tip->point = point;
-    tip->alive = 1;
+    f->tips[i] = tip;
     if (i == f->now.tips)
         f->now.tips++;
 }
 
-/* Cuts a spoke; its end becomes a tip unless it lay on a rim. */
-void crack_run_along(struct sim *sim, struct sim_balloon *b, const struct ring *ring, int spoke, double run)
+void crack_run_along(struct sim *sim, struct sim_balloon *b, const struct ring *ring, int spoke,
+                     const struct crack_tip *tip)
 {
     const struct fan f = ring->fan[(spoke + ring->count - 1) % ring->count];
     const uint32_t point = sim->triangle_point[f.triangle][f.corner], end = crack_spoke_end(sim, ring, spoke);
     const bool ends = fracture_is_rim(sim, b, end);
     cut_spoke(sim, b, ring, spoke);
     if (!ends)
-        add_tip(sim, b, point, end, run);
+        add_tip(sim, b, tip, point, end);
 }
 
 /* The spoke that goes most nearly along a direction at rest, of those within a right angle of it; -1: none may be cut. */
@@ -197,7 +199,7 @@ static uint32_t slit_one_way(struct sim *sim, struct sim_balloon *b, uint32_t po
         if (ends)
             break;
         if (left <= 0)
-            add_tip(sim, b, point, end, 0);
+            add_tip(sim, b, NULL, point, end);
         point = end;
     }
     return cuts;
