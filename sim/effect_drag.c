@@ -9,11 +9,49 @@
 #include "sim/effects.h"
 #include "sim/guard.h"
 
+#include <math.h>
 #include <stdlib.h>
+
+struct air_drag {
+    double
+        bound_speed; /* the fastest that skin and air were taken to pass each other, for the guard's bound; state */
+};
 
 static bool wanted(const struct scene *scene)
 {
     return scene->drag.on;
+}
+
+static bool is_felt(const struct sim *sim)
+{
+    return sim->scene->drag.air_density * sim->scene->drag.coefficient > 0;
+}
+
+static enum status open(struct sim *sim, struct sim_balloon *balloon, struct error *err)
+{
+    (void)balloon;
+    sim->drag = calloc(1, sizeof *sim->drag);
+    if (!sim->drag)
+        return error_no_memory(err, "the drag");
+    sim->bytes += sizeof *sim->drag;
+    sim->rows.air = sim_table(sim, sim->point_count, sizeof(double[4]));
+    return sim->rows.air ? STATUS_OK : error_no_memory(err, "the air's forces");
+}
+
+static void close(struct sim *sim, struct sim_balloon *balloon)
+{
+    (void)balloon;
+    free(sim->rows.air);
+    sim->rows.air = NULL;
+    free(sim->drag);
+    sim->drag = NULL;
+}
+
+static size_t blocks(struct sim *sim, struct sim_balloon *balloon, struct sim_block *list)
+{
+    (void)balloon;
+    list[0] = (struct sim_block){"drag", sim->drag, sizeof *sim->drag};
+    return is_felt(sim);
 }
 
 struct flow {
@@ -41,20 +79,6 @@ static void add_to_own(const struct sim_part *part, double (*to)[4], const uint3
         if (p[k] - part->point_begin < part->point_end - part->point_begin)
             for (int i = 0; i < 3; i++)
                 to[p[k]][i] += factor * add[i];
-}
-
-static enum status open(struct sim *sim, struct sim_balloon *balloon, struct error *err)
-{
-    (void)balloon;
-    sim->rows.air = sim_table(sim, sim->point_count, sizeof(double[4]));
-    return sim->rows.air ? STATUS_OK : error_no_memory(err, "the air's forces");
-}
-
-static void close(struct sim *sim, struct sim_balloon *balloon)
-{
-    (void)balloon;
-    free(sim->rows.air);
-    sim->rows.air = NULL;
 }
 
 struct product {
@@ -105,21 +129,47 @@ static void product(struct sim *sim, struct sim_balloon *balloon, double a, doub
     sim_each_part(sim, product_part, &(struct product){a, b, dx, dv, df});
 }
 
-/* |dF/dv| = r C A |w . n| on a triangle, a third of it at each corner, at twice the speed that it has; and what wind there is pushes. */
+/* How fast any point and the air pass each other. Slower than a thousandth of an edge a step does not matter. */
+static double fastest(const struct sim *sim)
+{
+    const double *wind = sim->scene->drag.wind,
+                 least = 1e-3 * sim->balloons[0].mean_rest_length / sim->whole_step;
+    double most = least * least;
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
+        for (uint32_t p = b->point_begin; p < b->point_end; p++) {
+            double w[3];
+            vec3_sub(wind, sim->velocity[p], w);
+            most = fmax(most, vec3_dot(w, w));
+        }
+    return sqrt(most);
+}
+
+/* |dF/dv| = r C A |w . n| on a triangle, a third of it at each corner, at twice the speed that any has: until then it is asked no more. What
+ * moves no faster than the wind is pushed by r C/2 A |2 wind|^2 at the most; what moves faster is held back. */
 static void bound(const struct sim *sim, const struct sim_balloon *balloon, const struct guard_rows *rows)
 {
     (void)balloon;
+    const double speed = sim->drag->bound_speed = fastest(sim);
+    const double *wind = sim->scene->drag.wind;
     for (uint32_t t = 0; t < sim->triangle_count; t++) {
         const uint32_t *p = sim->triangle_point[t];
         if (!sim->triangle_active[t])
             continue;
         const struct flow flow = flow_at(sim, p);
-        const double area = sqrt(flow.squared), speed = vec3_length(flow.wind);
+        const double area = sqrt(flow.squared);
         for (int k = 0; k < 3; k++) {
             rows->damping[p[k]] += 2 * 2 * flow.factor * area * speed / 3;
-            rows->push[p[k]] += flow.factor * area * speed * speed / 3;
+            rows->push[p[k]] += 4 * flow.factor * area * vec3_dot(wind, wind) / 3;
         }
     }
+}
+
+static void after(struct sim *sim, struct sim_balloon *balloon)
+{
+    (void)balloon;
+    const double speed = is_felt(sim) ? fastest(sim) : sim->drag->bound_speed;
+    if (!(speed <= 2 * sim->drag->bound_speed && speed >= sim->drag->bound_speed / 8))
+        guard_outdated(sim);
 }
 
 /* The wind's work is F . wind; what the air takes of the relative motion is F . w, never below 0. */
@@ -143,6 +193,8 @@ const struct effect effect_drag = {.name = "drag",
                                    .scene_wanted = wanted,
                                    .open = open,
                                    .close = close,
+                                   .after = after,
+                                   .blocks = blocks,
                                    .product = product,
                                    .bound = bound,
                                    .power = power,

@@ -276,6 +276,16 @@ static void product(struct sim *sim, struct sim_balloon *b, double a, double (*d
     areas_product(sim, b, &pressure, &d, held_of(gas), a, dx, df);
 }
 
+/* The largest pressure on any point, less the air's: where gas or air have weight it depends on the height. */
+static double largest_gauge(const struct sim *sim, const struct sim_balloon *b,
+                            const struct areas_pressure *pressure)
+{
+    double most = 0;
+    for (uint32_t p = b->point_begin; p < b->point_end; p++)
+        most = fmax(most, fabs(pressure->constant + vec3_dot(pressure->gradient, sim->position[p])));
+    return most;
+}
+
 /* The stiffness of areas, and g p/V times a point's area vector times those of all others; both for half as much again. From the state
  * alone: what the last forces left may be that of another one. */
 static void bound(const struct sim *sim, const struct sim_balloon *b, const struct guard_rows *rows)
@@ -289,10 +299,12 @@ static void bound(const struct sim *sim, const struct sim_balloon *b, const stru
     memory->bound_pressure = gas_pressure(gas_amount(sim, gas), memory->bound_volume,
                                           sim->scalar[gas->scalar + GAS_ENTROPY], gas->g);
     memory->bound_gauge = gauge_to_bound(gas, memory->bound_pressure);
-    areas_bound(sim, b, 1.5 * memory->bound_gauge, rows);
+    const struct areas_pressure pressure = pressure_of(sim, b, memory->bound_pressure, memory->bound_volume);
+    areas_bound(sim, b, 1.5 * fmax(memory->bound_gauge, largest_gauge(sim, b, &pressure)), rows);
     for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++)
         all += areas_size(sim, t);
-    const double stiffness = 1.5 * gas->g * memory->bound_pressure / memory->bound_volume * all;
+    const double stiffness = 1.5 * (gas->g * memory->bound_pressure / memory->bound_volume * all +
+                                    vec3_length(pressure.gradient));
     for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++)
         for (int k = 0; k < 3; k++)
             rows->stiffness[sim->triangle_point[t][k]] += stiffness * areas_size(sim, t) / 3;

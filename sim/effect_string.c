@@ -133,16 +133,18 @@ static void product(struct sim *sim, struct sim_balloon *b, double a, double (*d
             df[string->point[k]][i] -= (dt * pull.along[i] + a * pull.tension * du[i]) / string->count;
 }
 
-/* A point feels its share; and a weight that swings faster than the point would is made up for by more of it. */
+/* A point feels its share, and what is stretched already pulls; and a weight that swings faster than the point would is made up for by more of it. */
 static void bound(const struct sim *sim, const struct sim_balloon *b, const struct guard_rows *rows)
 {
     const struct string *string = b->string;
+    const double stretched = fmax(0, pull_of(sim, string).length - string->length);
     for (uint32_t k = 0; k < string->count; k++) {
         const uint32_t p = string->point[k];
         const double share = 1.0 / string->count,
                      more = string->scene->weight > 0 ? sim->mass[p] / string->scene->weight : 0;
         rows->stiffness[p] += 2 * string->scene->stiffness * (share + more);
         rows->damping[p] += 2 * string->scene->damping * (share + more);
+        rows->push[p] += string->scene->stiffness * stretched * share;
     }
 }
 

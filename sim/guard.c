@@ -126,12 +126,28 @@ static double parts_needed(const struct sim *sim)
     return fmax(ceil(sim->whole_step / sim->guard->memory.stable * (1 - 1e-12)), 1);
 }
 
+/* Within a step that is split already: what was stable at its start no longer is, since speeds or stretches have grown. */
+static void split_further(struct sim *sim)
+{
+    const double more = ceil(sim->step / sim->guard->memory.stable * (1 - 1e-12));
+    if (!(more > 1) || sim->integrator->flags & INTEGRATOR_ADAPTIVE ||
+        !(more * sim->substeps <= GUARD_PARTS_MAX))
+        return;
+    sim->substeps *= (uint32_t)more;
+    sim->steps_since *= (uint64_t)more;
+    sim->step = sim->whole_step / sim->substeps;
+    sim->changed = true;
+}
+
 enum status guard_step(struct sim *sim, bool first, struct error *err)
 {
     const int guard = sim->scene->time.guard;
     look(sim);
-    if (!first)
+    if (!first) {
+        if (guard == SCENE_GUARD_SUBSTEP)
+            split_further(sim);
         return STATUS_OK;
+    }
     const double wanted = fmax(sim->wanted_substeps, 1),
                  parts = guard == SCENE_GUARD_OFF ? wanted : fmax(parts_needed(sim), wanted);
     if (parts > wanted && (guard == SCENE_GUARD_REFUSE || !(parts <= GUARD_PARTS_MAX)))
@@ -140,15 +156,27 @@ enum status guard_step(struct sim *sim, bool first, struct error *err)
     return STATUS_OK;
 }
 
+/* The most kinetic energy that numbers which do not run away have. */
+static double most_energy(const struct guard_memory *memory)
+{
+    return 1e6 * fmax(memory->reach * memory->reach / 2, memory->least);
+}
+
 enum status guard_check(struct sim *sim, struct error *err)
 {
     struct guard_memory *memory = &sim->guard->memory;
     memory->reach += memory->push * sim->taken;
-    const double most = 1e6 * fmax(memory->reach * memory->reach / 2, memory->least);
-    if (sweep_saw_energy(sim) <= most / 2) /* far from where the order of its sum could matter */
+    if (sweep_saw_energy(sim) <=
+        most_energy(memory) / 2) /* far from where the order of its sum could matter */
         return STATUS_OK;
-    const double energy = vector_sum(sim, moving_energy, NULL);
-    return energy <= most ? STATUS_OK : sim_diverged(sim, energy, err);
+    const double energy = vector_sum(sim, moving_energy, NULL), before = memory->push;
+    if (energy <= most_energy(memory))
+        return STATUS_OK;
+    if (isfinite(energy)) { /* what pushes may have grown within the step, as a pump's gas does */
+        guard_find_bound(sim);
+        memory->reach += fmax(memory->push - before, 0) * sim->taken;
+    }
+    return energy <= most_energy(memory) ? STATUS_OK : sim_diverged(sim, energy, err);
 }
 
 void guard_describe(struct sim *sim, char *text, size_t size)

@@ -35,6 +35,7 @@ struct pins;
 struct string;
 struct obstacles;
 struct contact;
+struct air_drag;
 struct limit_point;
 struct gas_rims;
 struct topology;
@@ -212,6 +213,7 @@ struct sim {
         [4]; /* [point_count] places when the step began; NULL: nothing that the scene calls for asks for them */
     struct obstacles *obstacles; /* what stands in the way (obstacles.h); NULL: nothing */
     struct contact *contact;     /* what keeps skins apart (contact.h); NULL: nothing */
+    struct air_drag *drag;       /* what the air's resistance remembers (effect_drag.c) */
     struct hand *hand;           /* that pulls at it (live_hand.h); NULL: none */
     uint64_t fingerprint;        /* checkpoint_fingerprint() before anything was cut; 0: nothing can be */
     uint64_t

@@ -1,5 +1,5 @@
 /* Pressure and gas at their limits: past the limit point of rubber under control of the gas and of the pressure, ten times the bursting
- * pressure at once, vacuum, and gas whose volume goes to nothing. */
+ * pressure at once, vacuum, gas whose volume goes to nothing, and forces that grow within a step. */
 #include "hard.h"
 
 #include "sim/effect_gas.h"
@@ -230,6 +230,54 @@ static void gas_whose_volume_goes_to_nothing_ends_the_run_and_says_so(void **sta
     close_balloon(&b);
 }
 
+/* A pump that fills it ten thousand times in the first step, gas that weighs more than its skin, a string that is taut by a radius, air as
+ * thick as honey and storm in it: forces that no speed of the start tells of. None is mistaken for numbers that run away, none makes them. */
+static void what_pushes_out_of_the_blue_is_no_divergence(void **state)
+{
+    (void)state;
+    static const char *const scenes[][4] = {
+        {"balloons[0].gas.ambient=10", "balloons[0].gas.pump=4e5", "balloons[0].gas.pump_until=20",
+         "balloons[0].gas.density=1e-5"},
+        {"balloons[0].gas.ambient=100", "balloons[0].gas.density=1", "gravity.acceleration=[0, -1, 0]",
+         "gravity.air_density=0.5"},
+        {"balloons[0].string.slack=0.2", "balloons[0].string.stiffness=1e5", "balloons[0].spring=1e-3",
+         "balloons[0].damping=0"},
+        {"balloons[0].pressure=1000", "drag.air_density=10", "drag.wind=[300, 0, 0]", "balloons[0].spring=1"},
+    };
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        struct balloon b;
+        const char *const *s = scenes[i];
+        open_balloon(&b, 1, HARD("balloons[0].pressure=0", s[0], s[1], s[2], s[3]));
+        while (b.sim.time < 0.1)
+            steps(&b, 1);
+        assert_finite(&b.sim);
+        close_balloon(&b);
+    }
+}
+
+/* Air of 10 against points of .11, a thousand of pressure on them: the step that is stable at rest is a hundred times too long once they fly,
+ * which happens within it. Drag only takes: with the pressure gone there is never more energy than there was. */
+static void drag_that_grows_within_a_step_splits_it_further(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 2,
+                 HARD("drag.air_density=10", "balloons[0].pressure=1000", "schedule[0].at=0.1",
+                      "schedule[0].pressure=0", "time.step=0.1"));
+    steps(&b, 1);
+    const uint32_t first = b.sim.substeps;
+    while (b.sim.steps_since % b.sim.substeps)
+        steps(&b, 1);
+    assert_true(b.sim.substeps > first);
+    double before = energy_of(&b);
+    for (int i = 0; i < 200; i++) {
+        steps(&b, 1);
+        assert_true(energy_of(&b) <= 1.001 * before);
+        before = energy_of(&b);
+    }
+    close_balloon(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -240,6 +288,8 @@ int main(void)
         cmocka_unit_test(gas_of_ten_times_the_bursting_pressure_at_once),
         cmocka_unit_test(a_tearing_skin_under_ten_times_its_limit_at_once),
         cmocka_unit_test(air_crushes_a_half_empty_balloon_no_further_than_its_gas_allows),
+        cmocka_unit_test(what_pushes_out_of_the_blue_is_no_divergence),
+        cmocka_unit_test(drag_that_grows_within_a_step_splits_it_further),
         cmocka_unit_test(gas_whose_volume_goes_to_nothing_ends_the_run_and_says_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
