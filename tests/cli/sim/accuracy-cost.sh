@@ -12,6 +12,7 @@ for method in symplectic-euler explicit-euler verlet rk4 rkn4 rk-adaptive backwa
 done
 awk -F'\t' '$1 == "rk4" && $6 < 1e-4 && $6 > 1e-9 && !($7 > 3.5 && $7 < 4.6 || $7 == "nan") { exit 1 }' cost.tsv ||
     fail "rk4 has another order"
+stdout_has '^# all in double precision: '
 stdout_has '^# references: .* and .* extrapolated: they agree to [0-9.e-]+, [0-9.e+]+ times better than the best row$'
 stdout_has '^# auto at time.tolerance=1e-05 \(.*substep.*\): [0-9.]+ x the time of the fastest'
 only_files cube.oct cube.ply cost.tsv
