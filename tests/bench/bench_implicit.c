@@ -1,8 +1,7 @@
 /* Implicit methods on one core: what a step costs, in forces, products with their derivatives, and time, for springs that are
  * all alike and for one in twenty a thousand and a million times stiffer; on the mesh that is given and an icosphere of 20 thousand triangles. The
  * step is in units of the longest that velocity Verlet is stable with. bench_implicit MESH */
-#include "sim/sim.h"
-#include "support/bench.h"
+#include "stiff_sphere.h"
 #include "support/shapes.h"
 
 #include <math.h>
@@ -12,22 +11,6 @@ struct setting {
     const char *method;
     double contrast, times_limit;
 };
-
-static void open_scene(const struct setting *s, const struct mesh *mesh, struct scene *scene, struct sim *sim)
-{
-    char integrator[64];
-    struct error err = {0};
-    const char *changes[] = {integrator, "time.guard=off", "balloons[0].pressure=2",
-                             "balloons[0].point_mass=1", "balloons[0].threshold=100"};
-    snprintf(integrator, sizeof integrator, "time.integrator=%s", s->method);
-    bench_check(scene_from_mesh("sphere", scene, &err), &err);
-    for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++)
-        bench_check(scene_set(scene, changes[i], &err), &err);
-    bench_check(scene_check(scene, &err), &err);
-    bench_check(sim_open(sim, scene, mesh, 1, &err), &err);
-    for (uint32_t e = 0; e < sim->edge_count; e += 20)
-        sim->current_spring_const[e] *= s->contrast;
-}
 
 /* Twice over the root of the largest k / m that two points and a spring have, or of a mesh of equal springs (7.07 k / m on the
  * paper's sphere). */
@@ -41,7 +24,7 @@ static void bench(const struct setting *s, const struct mesh *mesh)
     struct error err = {0};
     struct scene scene = {0};
     struct sim sim;
-    open_scene(s, mesh, &scene, &sim);
+    stiff_sphere_open(s->method, s->contrast, mesh, &scene, &sim);
     sim.step = sim.whole_step = s->times_limit * explicit_limit(scene.balloons[0].spring, s->contrast);
     enum status status = sim_step(&sim, &err); /* the first finds a balloon at rest, which is easy */
     const uint64_t evaluations = sim.evaluations, products = sim.products;
