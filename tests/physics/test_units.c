@@ -142,6 +142,35 @@ static void viscosity_is_in_the_ledger(void **state)
     close_balloon(&b);
 }
 
+/* All edges of a held, stretched balloon let go, one after the other: what was in springs and arms is booked, to the rounding of its sum. A unit that
+ * slips holds nothing itself: what it took was booked as it slipped. */
+static void what_breaks_takes_its_units_energy_along(void **state)
+{
+    (void)state;
+    struct balloon b;
+    struct error err = {0};
+    open_balloon(&b, 1,
+                 UNIT("balloons[0].viscosity.ratio=3", "balloons[0].plasticity.yield=5",
+                      "balloons[0].pressure=0", "balloons[0].damping=0"));
+    struct sim *sim = &b.sim;
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        sim->position[p][0] *= 1.2;
+    assert_ok(ledger_open(sim, &err), &err);
+    steps(&b, 3);
+    struct sim_measures m = sim_measure(sim);
+    const struct ledger_balance before = ledger_balance(sim, &m);
+    assert_true(before.gas > 0.01 * m.elastic_energy && m.elastic_energy > 0 && before.dissipated > 0);
+    for (uint32_t e = 0; e < sim->edge_count; e++)
+        sim_break_edge(sim, e);
+    const double held = m.elastic_energy + before.gas;
+    m = sim_measure(sim);
+    const struct ledger_balance after = ledger_balance(sim, &m);
+    assert_near(after.fracture, held, 1e-12 * held);
+    assert_near(after.error, before.error, 1e-12 * held);
+    assert_near(m.elastic_energy + after.gas, 0, 0);
+    close_balloon(&b);
+}
+
 static void viscous_springs_are_equal_for_any_number_of_threads(void **state)
 {
     (void)state;
@@ -171,6 +200,7 @@ int main(void)
         cmocka_unit_test(a_spring_that_slips_keeps_its_length),
         cmocka_unit_test(a_spring_that_is_not_pulled_hard_does_not_slip),
         cmocka_unit_test(viscosity_is_in_the_ledger),
+        cmocka_unit_test(what_breaks_takes_its_units_energy_along),
         cmocka_unit_test(viscous_springs_are_equal_for_any_number_of_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

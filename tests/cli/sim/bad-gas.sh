@@ -21,3 +21,28 @@ stderr_has 'bad.cfg:2: balloons\[0\].pins: place = \[0, 0, 0\] names no point'
 scene 'gaz = { ambient = 10; };'
 expect 1 balloon-sim bad.cfg --check
 stderr_has 'bad.cfg:2: .*`gaz`.*did you mean `gas`'
+scene 'membrane = { law = "gent"; };'
+expect 1 balloon-sim bad.cfg --check
+stderr_has 'bad.cfg:2: balloons\[0\].membrane: give thickness'
+scene 'membrane = { thickness = 0.4; }; viscosity = { };'
+expect 1 balloon-sim bad.cfg --check
+stderr_has 'bad.cfg:2: balloons\[0\].membrane: it has no springs for viscosity'
+scene 'bending = { stiffness = -1; };'
+expect 1 balloon-sim bad.cfg --check
+stderr_has 'bad.cfg:2: stiffness is -1; it must be from 0 to'
+scene 'bending = { }; } ); time = { integrator = "xpbd"; }; gravity = { }; needles = ( { from = [0.0, 9.0, 0.0];'
+expect 1 balloon-sim bad.cfg --check
+stderr_has 'bad.cfg:2: balloons\[0\].bending: time.integrator "xpbd" moves springs only'
+scene '} ); needles = ( { velocity = [0.0, -1.0, 0.0];'
+expect 1 balloon-sim bad.cfg --check
+stderr_has 'bad.cfg:2: needles\[0\] names no point; give from'
+# Gas needs a skin that holds it.
+ply open.ply '0 0 0
+1 0 0
+0 1 0
+0 0 1' '0 2 1
+0 1 3
+0 3 2'
+printf 'balloons = ( { mesh = "open.ply"; gas = { ambient = 10; }; } );\n' > open.cfg
+expect 1 balloon-sim open.cfg --check
+stderr_has 'open.ply: the edge from .* has one triangle only, .*; a balloon must be closed to hold air'
