@@ -1,27 +1,12 @@
 /* Latex looks as thin as it is, and its layers lie in their order. */
-#include "check.h"
-#include "render/render.h"
+#include "renderer.h"
 #include "sphere.h"
-
-static struct render *renderer;
 
 /* Seen from (0, 0, 10), y up: x and y in -2 .. 2. */
 static struct render_view square_view(enum render_order order)
 {
     return (struct render_view){
-        .width = 160,
-        .height = 160,
-        .style = RENDER_LATEX,
-        .order = order,
-        .camera = {.eye = {0, 0, 10}, .up = {0, 1, 0}, .field_of_view_deg = 2 * atan(0.2) * 180 / M_PI}};
-}
-
-static struct image drawn(const struct render_view *view, const struct render_skin *skins, size_t count)
-{
-    struct error err;
-    struct image image = {0};
-    assert_ok(render_draw(renderer, view, skins, count, &image, &err), &err);
-    return image;
+        .width = 160, .height = 160, .style = RENDER_LATEX, .order = order, .camera = front_camera()};
 }
 
 /* A rectangle that faces the viewer and is larger than the picture. */
@@ -44,13 +29,6 @@ static struct render_skin card_at(struct card *card, double z, float grey, float
                                 .rest_opacity = opacity,
                                 .colour = {grey, grey, grey},
                                 .facets = true};
-}
-
-/* IEC 61966-2-1. */
-static double linear(unsigned char value)
-{
-    double v = value / 255.0;
-    return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
 }
 
 static double middle_light(const struct render_skin *skins, size_t count)
@@ -305,21 +283,6 @@ static void a_stretch_that_is_no_number_is_refused(void **state)
     struct render_view view = square_view(RENDER_SORT);
     assert_refused(render_draw(renderer, &view, &skin, 1, &image, &err), STATUS_RANGE,
                    "skin 0, triangle 0 has a stretch that is no number", &err);
-}
-
-static int open_renderer(void **state)
-{
-    (void)state;
-    struct error err;
-    assert_ok(render_open(160, 160, &renderer, &err), &err);
-    return 0;
-}
-
-static int close_renderer(void **state)
-{
-    (void)state;
-    render_close(renderer);
-    return 0;
 }
 
 int main(void)

@@ -1,8 +1,5 @@
 /* Both eyes see each point where their places in the scene say, in every way to show two pictures. */
-#include "check.h"
-#include "render/render.h"
-
-static struct render *renderer;
+#include "renderer.h"
 
 /* Seen from (0, 0, 10), 4 units high at the origin, which lies in the screen plane; eyes 1 apart. */
 static struct render_view view_of(enum render_stereo stereo, bool squeezed)
@@ -12,33 +9,19 @@ static struct render_view view_of(enum render_stereo stereo, bool squeezed)
                                 .stereo = stereo,
                                 .squeezed = squeezed,
                                 .order = RENDER_SORT,
-                                .camera = {.eye = {0, 0, 10},
-                                           .up = {0, 1, 0},
-                                           .field_of_view_deg = 2 * atan(0.2) * 180 / M_PI,
-                                           .eye_distance = 1,
-                                           .screen_distance = 10}};
+                                .camera = front_camera()};
 }
 
 /* A red square around a point. */
-static struct image drawn(const struct render_view *view, double x, double y, double z)
+static struct image drawn_square(const struct render_view *view, double x, double y, double z)
 {
-    struct error err;
-    struct image image = {0};
     const double r = 0.15;
     double position[4][3] = {{x - r, y - r, z}, {x + r, y - r, z}, {x + r, y + r, z}, {x - r, y + r, z}};
     uint32_t triangle[2][3] = {{0, 1, 2}, {0, 2, 3}};
     const struct mesh mesh = {
         .point_count = 4, .position = position, .triangle_count = 2, .triangle = triangle};
     const struct render_skin skin = {.mesh = &mesh, .colour = {1, 0, 0}};
-    assert_ok(render_draw(renderer, view, &skin, 1, &image, &err), &err);
-    return image;
-}
-
-/* IEC 61966-2-1. */
-static double linear(unsigned char value)
-{
-    double v = value / 255.0;
-    return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+    return drawn(view, &skin, 1);
 }
 
 /* The middle of what is red in a part of the picture; what is green there has none of it. */
@@ -85,7 +68,7 @@ static void parallax_is_that_of_the_eyes_and_never_vertical(void **state)
         const double wide = 4.0 * (layout->squeezed ? 240.0 / 160 : (double)l[2] / l[3]);
         for (int z = -3; z <= 3; z++) {
             const double at[3] = {0.3, 0.5, z};
-            struct image image = drawn(&view, at[0], at[1], at[2]);
+            struct image image = drawn_square(&view, at[0], at[1], at[2]);
             double left[2], right[2];
             red_middle(&image, l[0], l[1], l[2], l[3], left);
             red_middle(&image, r[0], r[1], r[2], r[3], right);
@@ -109,7 +92,8 @@ static struct eyes eyes_drawn(enum render_stereo stereo)
 {
     const struct render_view left = view_of(RENDER_LEFT, false), right = view_of(RENDER_RIGHT, false),
                              both = view_of(stereo, false);
-    return (struct eyes){drawn(&left, 0.3, 0.2, 2), drawn(&right, 0.3, 0.2, 2), drawn(&both, 0.3, 0.2, 2)};
+    return (struct eyes){drawn_square(&left, 0.3, 0.2, 2), drawn_square(&right, 0.3, 0.2, 2),
+                         drawn_square(&both, 0.3, 0.2, 2)};
 }
 
 static void eyes_clear(struct eyes *eyes)
@@ -155,7 +139,7 @@ static void bands_of_a_large_picture_keep_their_rows(void **state)
     (void)state;
     struct render_view view = view_of(RENDER_INTERLACED, false), left = view_of(RENDER_LEFT, false);
     view.width = view.height = left.width = left.height = 2100;
-    struct image both = drawn(&view, 0, 0, 4), one = drawn(&left, 0, 0, 4);
+    struct image both = drawn_square(&view, 0, 0, 4), one = drawn_square(&left, 0, 0, 4);
     for (int y = 0; y < 2100; y += 2)
         assert_memory_equal(both.rgb + 6300 * y, one.rgb + 6300 * y, 6300);
     image_clear(&both);
@@ -173,21 +157,6 @@ static void what_cannot_be_halved_is_refused(void **state)
     view.stereo = RENDER_CROSSED;
     assert_ok(render_draw(renderer, &view, NULL, 0, &image, &err), &err);
     image_clear(&image);
-}
-
-static int open_renderer(void **state)
-{
-    (void)state;
-    struct error err;
-    assert_ok(render_open(240, 160, &renderer, &err), &err);
-    return 0;
-}
-
-static int close_renderer(void **state)
-{
-    (void)state;
-    render_close(renderer);
-    return 0;
 }
 
 int main(void)

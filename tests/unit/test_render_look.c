@@ -1,0 +1,223 @@
+/* Skins look as lit, as shiny and as opaque as they are told. */
+#include "cards.h"
+#include "sphere.h"
+
+/* White skin is not paled further, and straight on its path is its thickness. Three values rounded to 1/255
+ * of sRGB, whose slope is at most 2.4 / 1.055: 1.5 x 0.5 / 255 x 2.3. */
+static void opacity_one_half_blends_half_of_what_lies_behind(void **state)
+{
+    (void)state;
+    struct cards grey = {0}, cards = {0};
+    add_card(&grey, -2, -2, 2, 2, -1);
+    add_card(&cards, -1, -1, 1, 1, 0);
+    struct render_skin skins[2] = {skin_of(&grey, 0.1f, 0.1f, 0.1f), skin_of(&cards, 1, 1, 1)};
+    struct render_view view = square_view();
+    struct image behind = drawn(&view, skins, 1), opaque = drawn(&view, skins, 2);
+    cards.opacity[0] = cards.opacity[1] = 0.5f;
+    struct image half = drawn(&view, skins, 2);
+    for (int c = 0; c < 3; c++) {
+        double wanted = (linear(pixel(&behind, 100, 100)[c]) + linear(pixel(&opaque, 100, 100)[c])) / 2;
+        assert_near(linear(pixel(&half, 100, 100)[c]), wanted, 0.007);
+    }
+    assert_true(pixel(&opaque, 100, 100)[0] > pixel(&behind, 100, 100)[0] + 100);
+    cards.opacity[0] = cards.opacity[1] = 0;
+    struct image clear = drawn(&view, skins, 2);
+    assert_same_picture(&clear, &behind);
+    image_clear(&behind);
+    image_clear(&opaque);
+    image_clear(&half);
+    image_clear(&clear);
+}
+
+static void smooth_edges_change_outlines_only(void **state)
+{
+    (void)state;
+    struct mesh mesh = sphere_new(40, 40);
+    struct render_skin skin = {.mesh = &mesh, .colour = {0.7f, 0.1f, 0.1f}};
+    struct render_view view = square_view();
+    struct image plain = drawn(&view, &skin, 1);
+    view.smooth_edges = true;
+    struct image smooth = drawn(&view, &skin, 1);
+    int changed = 0;
+    for (int y = 0; y < 200; y++)
+        for (int x = 0; x < 200; x++) {
+            int difference = abs(pixel(&plain, x, y)[1] - pixel(&smooth, x, y)[1]);
+            double radius = hypot(x - 99.5, y - 99.5) / 50;
+            changed += difference > 20;
+            assert_true(difference <= 2 || fabs(radius - 1) < 0.05);
+        }
+    assert_true(changed > 100); /* the outline is 314 pixels long */
+    image_clear(&plain);
+    image_clear(&smooth);
+    sphere_free(&mesh);
+}
+
+static void both_sides_of_a_skin_are_lit_alike(void **state)
+{
+    (void)state;
+    struct cards cards = {0};
+    add_card(&cards, -1, -1, 1, 1, 0);
+    double normal[4][3] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+    struct render_skin skin = skin_of(&cards, 1, 1, 1);
+    struct render_view view = square_view();
+    struct image flat = drawn(&view, &skin, 1);
+    cards.mesh.normal = normal;
+    struct image front = drawn(&view, &skin, 1);
+    for (int t = 0; t < 2; t++) {
+        uint32_t second = cards.triangle[t][1];
+        cards.triangle[t][1] = cards.triangle[t][2];
+        cards.triangle[t][2] = second;
+    }
+    for (int p = 0; p < 4; p++)
+        normal[p][2] = -1;
+    struct image back = drawn(&view, &skin, 1);
+    assert_same_picture(&front, &flat);
+    assert_same_picture(&back, &front);
+    image_clear(&flat);
+    image_clear(&front);
+    image_clear(&back);
+}
+
+static void points_without_a_normal_take_the_facets(void **state)
+{
+    (void)state;
+    struct cards cards = {0};
+    add_card(&cards, -1, -1, 1, 1, 0);
+    double normal[4][3] = {{0, 0, 0}, {NAN, 0, 1}, {0, 0, 1}, {0, INFINITY, 0}};
+    struct render_skin skin = skin_of(&cards, 1, 1, 1);
+    struct render_view view = square_view();
+    struct image flat = drawn(&view, &skin, 1);
+    cards.mesh.normal = normal;
+    struct image mended = drawn(&view, &skin, 1);
+    assert_same_picture(&mended, &flat);
+    image_clear(&flat);
+    image_clear(&mended);
+}
+
+static int brightest(const struct image *image)
+{
+    int most = 0;
+    for (int i = 0; i < image->width * image->height; i++)
+        most = image->rgb[3 * i + 1] > most ? image->rgb[3 * i + 1] : most;
+    return most;
+}
+
+static void shinier_skin_has_a_stronger_highlight(void **state)
+{
+    (void)state;
+    struct mesh mesh = sphere_new(40, 40);
+    float *shininess = calloc(mesh.triangle_count, sizeof *shininess);
+    struct render_skin skin = {.mesh = &mesh, .shininess = shininess, .colour = {0.5f, 0, 0}};
+    struct render_view view = square_view();
+    view.camera.field_of_view_deg = 8; /* the sphere fills the picture: no backdrop in sight */
+    const float exponents[] = {0, 5, 20, 100};
+    int before = -6; /* none at all is 0 */
+    for (int i = 0; i < 4; i++) {
+        for (uint32_t t = 0; t < mesh.triangle_count; t++)
+            shininess[t] = exponents[i];
+        struct image image = drawn(&view, &skin, 1);
+        assert_true(brightest(&image) > before + 5);
+        before = brightest(&image);
+        image_clear(&image);
+    }
+    free(shininess);
+    sphere_free(&mesh);
+}
+
+/* Halves of opacity 1 and 0: with facets the border is a step, else it is a slope between the points. */
+static void opacity_is_smooth_unless_facets_are_wanted(void **state)
+{
+    (void)state;
+    struct cards cards = {0};
+    add_card(&cards, -1, -1, 1, 1, 0);
+    cards.opacity[1] = 0;
+    double normal[4][3] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+    cards.mesh.normal = normal;
+    struct render_skin skin = skin_of(&cards, 1, 0, 0);
+    struct render_view view = square_view();
+    struct image behind = drawn(&view, NULL, 0), smooth = drawn(&view, &skin, 1);
+    skin.facets = true;
+    struct image facets = drawn(&view, &skin, 1);
+    assert_memory_equal(pixel(&facets, 70, 75), pixel(&behind, 70, 75), 3); /* the upper left triangle */
+    assert_true(is_red(pixel(&facets, 130, 125)));
+    assert_memory_not_equal(pixel(&smooth, 70, 75), pixel(&behind, 70, 75), 3);
+    image_clear(&behind);
+    image_clear(&smooth);
+    image_clear(&facets);
+}
+
+/* Light of 0.55 in the middle of the backdrop: 1.055 x 0.55^(1/2.4) - 0.055 of 255 is 195.6. */
+static void pictures_are_srgb(void **state)
+{
+    (void)state;
+    struct render_view view = square_view();
+    struct image image = drawn(&view, NULL, 0);
+    assert_near(pixel(&image, 100, 100)[0], 195.6, 1.5);
+    image_clear(&image);
+}
+
+static void a_floor_takes_a_shadow_and_none_is_seen_from_below(void **state)
+{
+    (void)state;
+    struct mesh mesh = sphere_new(20, 20);
+    struct render_skin skin = {.mesh = &mesh, .colour = {0.7f, 0.1f, 0.1f}};
+    struct render_view view = square_view();
+    view.camera.eye[1] = 4;
+    struct image without = drawn(&view, &skin, 1);
+    view.floor = true;
+    view.floor_height = -1.2;
+    struct image with = drawn(&view, &skin, 1);
+    /* (0, -1.2, 1) lies in front of the sphere: at tan = (-1.2 - 4 / 10 x ..) below its middle */
+    assert_true(pixel(&with, 100, 160)[1] + 10 < pixel(&without, 100, 160)[1]);
+    assert_memory_equal(pixel(&with, 100, 100), pixel(&without, 100, 100), 3);
+    view.camera.eye[1] = -4;
+    struct image below = drawn(&view, &skin, 1);
+    view.floor = false;
+    struct image below_without = drawn(&view, &skin, 1);
+    assert_same_picture(&below, &below_without);
+    image_clear(&without);
+    image_clear(&with);
+    image_clear(&below);
+    image_clear(&below_without);
+    sphere_free(&mesh);
+}
+
+/* Seen from just above the floor the shadow lies further away than the skin, and is whole all the same. */
+static void a_shadow_has_no_edge(void **state)
+{
+    (void)state;
+    struct mesh mesh = sphere_new(20, 20);
+    struct render_skin skin = {.mesh = &mesh, .colour = {0.7f, 0.1f, 0.1f}};
+    struct render_view view = square_view();
+    view.camera.eye[1] = 2;
+    view.floor = true;
+    view.floor_height = -1.5;
+    struct image image = drawn(&view, &skin, 1);
+    int darkest = 255;
+    for (int y = 152; y < 200; y++) /* below the sphere */
+        for (int x = 0; x < 200; x++) {
+            assert_near(pixel(&image, x, y)[1], pixel(&image, x, y - 1)[1], 4);
+            darkest = pixel(&image, x, y)[1] < darkest ? pixel(&image, x, y)[1] : darkest;
+        }
+    for (int y = 1; y < 200; y++) /* beside it */
+        assert_near(pixel(&image, 40, y)[1], pixel(&image, 40, y - 1)[1], 4);
+    assert_true(darkest < 180);
+    image_clear(&image);
+    sphere_free(&mesh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(opacity_one_half_blends_half_of_what_lies_behind),
+        cmocka_unit_test(smooth_edges_change_outlines_only),
+        cmocka_unit_test(both_sides_of_a_skin_are_lit_alike),
+        cmocka_unit_test(points_without_a_normal_take_the_facets),
+        cmocka_unit_test(shinier_skin_has_a_stronger_highlight),
+        cmocka_unit_test(opacity_is_smooth_unless_facets_are_wanted),
+        cmocka_unit_test(pictures_are_srgb),
+        cmocka_unit_test(a_floor_takes_a_shadow_and_none_is_seen_from_below),
+        cmocka_unit_test(a_shadow_has_no_edge),
+    };
+    return cmocka_run_group_tests(tests, open_renderer, close_renderer);
+}
