@@ -37,8 +37,7 @@ static void print_span(const struct accuracy_table *table, FILE *stream)
         stream,
         "# errors: the largest at %d times up to %.6g s (%s), positions in mean radii (RMS), others relative\n",
         ACCURACY_TIMES, table->span, table->span_reason);
-    fputs("# all in double precision: single was measured, and made no step faster
-", stream);
+    fputs("# all in double precision: single was measured, and made no step faster\n", stream);
     fprintf(stream, "# references: %s; %s: they agree to %.1e", table->reference[0], table->reference[1],
             table->agreement);
     double best = INFINITY;
