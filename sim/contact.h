@@ -58,6 +58,7 @@ struct contact {
     uint32_t pair_count, pair_capacity;
     uint32_t *hits; /* [pair_capacity] pairs that touch, by the last look; owned */
     uint32_t hit_count;
+    unsigned char *held;    /* [point_count] by pins, as if their mass were infinite; owned */
     unsigned char *stirred; /* [point_count] moved since the last look; owned */
     uint32_t *zone;         /* [point_count] a point of the same zone; owned */
     double (*drift)

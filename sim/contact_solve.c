@@ -3,6 +3,7 @@
 #include "common/vec3.h"
 #include "sim/contact.h"
 #include "sim/obstacles.h"
+#include "sim/pins.h"
 
 #include <string.h>
 
@@ -110,12 +111,17 @@ bool contact_look(struct sim *sim, bool zones)
     return c->hit_count > 0;
 }
 
+static double inverse_mass(const struct sim *sim, uint32_t p)
+{
+    return sim->contact->held[p] ? 0 : 1 / sim->mass[p];
+}
+
 /* Adds amount x weight / mass along the direction to the four rows of x: no momentum comes or goes. */
 static void give(const struct sim *sim, const struct approach *a, double (*x)[4], const double direction[3],
                  double amount)
 {
     for (int i = 0; i < 4; i++) {
-        const double share = amount * a->touch.weight[i] / sim->mass[a->p[i]];
+        const double share = amount * a->touch.weight[i] * inverse_mass(sim, a->p[i]);
         for (int k = 0; k < 3; k++)
             x[a->p[i]][k] += share * direction[k];
     }
@@ -156,7 +162,9 @@ static void push(struct sim *sim, const struct approach *a)
     const double *n = a->touch.normal, gap = fmin(a->distance, c->thickness) / 2;
     double inverse = 0, end[3], v[3];
     for (int i = 0; i < 4; i++)
-        inverse += a->touch.weight[i] * a->touch.weight[i] / sim->mass[a->p[i]];
+        inverse += a->touch.weight[i] * a->touch.weight[i] * inverse_mass(sim, a->p[i]);
+    if (!(inverse > 0)) /* all are held */
+        return;
     against(a, sim->position, end);
     const double target = fmin(c->thickness, a->distance + c->thickness / 4),
                  at_end = target - vec3_dot(end, n),
@@ -232,8 +240,11 @@ enum status contact_settle(struct sim *sim, struct error *err)
     if (status)
         return status;
     note_awake(sim);
-    if (c->pair_count > 0)
+    if (c->pair_count > 0) {
         memset(c->stirred, 1, sim->point_count);
+        memset(c->held, 0, sim->point_count);
+        pins_mark(sim, c->held);
+    }
     bool hits = c->pair_count > 0 && contact_look(sim, false);
     for (int round = 0; hits && round < ROUNDS_MAX && !status; round++) {
         touched = true;

@@ -2,6 +2,7 @@
 #include "common/array.h"
 #include "common/threads.h"
 #include "common/vec3.h"
+#include "sim/topology.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -263,9 +264,23 @@ static uint32_t sides_of(const struct contact_ways *ways, const uint32_t *p)
     return bits;
 }
 
+/* A patch with a cut in it can cross itself there, whichever way it looks. */
+static bool is_cut(const struct sim *sim, uint32_t t)
+{
+    const struct sim_balloon *b = sim->balloons;
+    while (t >= b->triangle_end)
+        b++;
+    if (!b->topology || b->topology->now.rims == 0)
+        return false;
+    const uint32_t *neighbour = b->topology->neighbour[t - b->triangle_begin];
+    return neighbour[0] == MESH_NONE || neighbour[1] == MESH_NONE || neighbour[2] == MESH_NONE;
+}
+
 static bool is_whole(const struct sim *sim, uint32_t t)
 {
     const uint32_t *e = sim->triangle_edge[t];
+    if (is_cut(sim, t))
+        return false;
     return sim->edge_active[e[0]] && sim->edge_active[e[1]] && sim->edge_active[e[2]];
 }
 

@@ -41,17 +41,17 @@ static void add_up(struct sim *sim)
     }
 }
 
-/* A zone that would run into an obstacle stays where it was: there it was clear of everything. */
+/* A zone that pins hold, or that would run into an obstacle, stays where it was: there it was clear of everything. */
 static void hold(struct sim *sim)
 {
     struct contact *c = sim->contact;
-    for (uint32_t p = 0; sim->obstacles && p < sim->point_count; p++) {
+    for (uint32_t p = 0; p < sim->point_count; p++) {
         double *sum = c->drift[c->zone[p]], to[3], ignored[3] = {0};
         if (sum[7] == 0)
             continue;
         for (int i = 0; i < 3; i++)
             to[i] = sim->before[p][i] + sum[i] / sum[3];
-        if (obstacles_turn(sim->obstacles, sim->before[p], to, ignored))
+        if (c->held[p] || (sim->obstacles && obstacles_turn(sim->obstacles, sim->before[p], to, ignored)))
             memset(sum, 0, 3 * sizeof *sum);
     }
 }

@@ -33,12 +33,13 @@ static bool allocate(struct sim *sim, struct contact *c)
     c->edge_taken = sim_table(sim, sim->edge_count, 1);
     c->pairs = sim_table(sim, c->pair_capacity, sizeof *c->pairs);
     c->hits = sim_table(sim, c->pair_capacity, sizeof *c->hits);
+    c->held = sim_table(sim, points, 1);
     c->stirred = sim_table(sim, points, 1);
     c->zone = sim_table(sim, points, sizeof *c->zone);
     c->drift = sim_table(sim, points, sizeof *c->drift);
     c->strayed = sim_table(sim, sim->part_count, sizeof *c->strayed);
     return c->from && c->to && c->owned && c->point_taken && c->edge_taken && c->pairs && c->hits &&
-           c->stirred && c->zone && c->drift && c->strayed;
+           c->held && c->stirred && c->zone && c->drift && c->strayed;
 }
 
 /* Whether the edge a b passes through the triangle: its ends on two sides, and its line between the corners. */
@@ -146,8 +147,8 @@ static void close(struct sim *sim, struct sim_balloon *balloon)
     if (!c)
         return;
     contact_tree_close(&c->tree);
-    void *tables[] = {c->from, c->to,      c->owned, c->point_taken, c->edge_taken, c->pairs,
-                      c->hits, c->stirred, c->zone,  c->drift,       c->strayed};
+    void *tables[] = {c->held,  c->from, c->to,      c->owned, c->point_taken, c->edge_taken,
+                      c->pairs, c->hits, c->stirred, c->zone,  c->drift,       c->strayed};
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++)
         free(tables[i]);
     free(c);

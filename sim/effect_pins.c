@@ -1,6 +1,7 @@
 /* A patch of the skin that is held where it is: no force moves it. The last of all effects, since it takes away what the others add. */
 #include "sim/effects.h"
 #include "sim/patch.h"
+#include "sim/pins.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -49,6 +50,15 @@ static void hold(const struct pins *pins, double (*rows)[4])
 {
     for (uint32_t i = 0; i < pins->count && !pins->let_go; i++)
         memset(rows[pins->point[i]], 0, sizeof *rows);
+}
+
+void pins_mark(const struct sim *sim, unsigned char *held)
+{
+    for (size_t k = 0; k < sim->balloon_count; k++) {
+        const struct pins *pins = sim->balloons[k].pins;
+        for (uint32_t i = 0; pins && !pins->let_go && i < pins->count; i++)
+            held[pins->point[i]] = 1;
+    }
 }
 
 static void apply(struct sim *sim, struct sim_balloon *b)

@@ -3,6 +3,7 @@
 #include "common/random.h"
 #include "crossings.h"
 #include "sim/contact.h"
+#include "sim/topology.h"
 
 /* One or two balloons (the second NULL), icospheres of this level. */
 struct scene_of_two {
@@ -127,6 +128,73 @@ static void test_two_balloons_thrown_together_keep_apart_and_keep_their_momentum
         assert_near(after[i], before[i], 1e-11 * most);
     assert_true(s.sim.contact->memory.wakes > 0);
     assert_int_equal(s.sim.contact->memory.zones, 0);
+    close_scene(&s);
+}
+
+/* Thrown against a balloon that is pinned at the side that is hit: what is held stays to the bit, and nothing crosses. */
+static void test_contact_does_not_move_what_pins_hold(void **state)
+{
+    (void)state;
+    struct scene_of_two s;
+    open_scene(&s, 2, 1,
+               SETTINGS("contact.thickness=0.5", "balloons[1].mesh=sphere", "balloons[0].position=[-60,0,0]",
+                        "balloons[1].position=[60,3,2]", "balloons[0].pressure=0", "balloons[1].pressure=0",
+                        "balloons[0].threshold=100", "balloons[1].threshold=100", "time.guard=substep",
+                        "time.step=0.0125", "balloons[0].pins.place=[1,0,0]", "balloons[0].pins.reach=40"));
+    const uint32_t end = s.sim.balloons[0].point_end;
+    double(*at)[4] = calloc(end, sizeof *at);
+    memcpy(at, s.sim.position, end * sizeof *at);
+    for (uint32_t p = end; p < s.sim.point_count; p++)
+        s.sim.velocity[p][0] = -60;
+    check_steps(&s.sim, 120);
+    assert_true(s.sim.contact->memory.wakes > 0);
+    for (uint32_t p = 0; p < end; p++)
+        if (at[p][0] + 60 > 45 * cos(39 * 3.14159265 / 180))
+            assert_memory_equal(at[p], s.sim.position[p], sizeof *at);
+    free(at);
+    close_scene(&s);
+}
+
+/* Edges through triangles, but for those with a point at a cut: the two lips of a cut lie on each other at first, and are let go by. */
+static size_t crossings_away_from_cuts(const struct sim *sim)
+{
+    const struct topology *topology = sim->balloons[0].topology;
+    unsigned char *at_cut = calloc(sim->point_count, 1);
+    size_t count = 0;
+    for (uint32_t t = 0; t < sim->triangle_count; t++)
+        for (int k = 0; k < 3; k++)
+            if (topology->neighbour[t][k] == MESH_NONE)
+                at_cut[sim->triangle_point[t][k]] = at_cut[sim->triangle_point[t][(k + 1) % 3]] = 1;
+    for (uint32_t t = 0; t < sim->triangle_count; t++)
+        for (uint32_t u = 0; u < sim->triangle_count; u++) {
+            const uint32_t *a = sim->triangle_point[t], *b = sim->triangle_point[u];
+            if (at_cut[a[0]] | at_cut[a[1]] | at_cut[a[2]] | at_cut[b[0]] | at_cut[b[1]] | at_cut[b[2]])
+                continue;
+            for (int k = 0; k < 3; k++)
+                count += crossings_of(sim, sim->edge_point[sim->triangle_edge[u][k]], a);
+        }
+    free(at_cut);
+    return count;
+}
+
+static void test_a_skin_that_tears_keeps_apart_away_from_its_cuts(void **state)
+{
+    (void)state;
+    struct scene_of_two s;
+    struct error err = {0};
+    open_scene(&s, 3, 1,
+               SETTINGS("contact.thickness=0.2", "balloons[0].pressure=-4",
+                        "balloons[0].fracture.strength=100", "balloons[0].rip.at=0.3",
+                        "balloons[0].rip.stretch=0", "balloons[0].rip.length=2", "time.guard=substep",
+                        "time.step=0.0125"));
+    swirl(&s.sim, 3);
+    for (int i = 0; i < 120; i++) {
+        assert_ok(sim_step(&s.sim, &err), &err);
+        if (i % 10 == 9)
+            assert_int_equal(crossings_away_from_cuts(&s.sim), 0);
+    }
+    assert_true(s.sim.broken > 0);
+    assert_true(s.sim.contact->memory.wakes > 0);
     close_scene(&s);
 }
 
@@ -258,6 +326,8 @@ int main(void)
         cmocka_unit_test(test_without_contact_it_crosses_itself),
         cmocka_unit_test(test_a_squeezed_balloon_never_crosses_itself_nor_enters_the_boxes),
         cmocka_unit_test(test_two_balloons_thrown_together_keep_apart_and_keep_their_momentum),
+        cmocka_unit_test(test_contact_does_not_move_what_pins_hold),
+        cmocka_unit_test(test_a_skin_that_tears_keeps_apart_away_from_its_cuts),
         cmocka_unit_test(test_any_number_of_threads_comes_to_the_same_bits),
         cmocka_unit_test(test_a_state_that_is_put_back_goes_on_the_same),
         cmocka_unit_test(test_nothing_near_changes_no_bit_and_sleeps),
