@@ -6,8 +6,8 @@
  * above, D such that the product has the system's diagonal (DILU: Pommerell, 1992). What one stiff spring does to its two
  * points is in it to the full. Points are taken in groups of SOLVER_GROUP, as if nothing went between two groups: these are what
  * threads share out. (Smaller ones cost more iterations than threads gain: with stiffness contrasts up to fifty times as
- * many.) Equal to the bit for any number of threads. At equal error (tests/bench/bench_linear.c) GMRES takes .7 to 1.4 of its time, exact
- * factors by CHOLMOD 4 times and far more, conjugate gradients .7, but only where there are neither pressure nor dampers.
+ * many.) Equal to the bit for any number of threads. At equal error (tests/bench/bench_linear.c) GMRES takes .7 to 1.5 of its time, exact
+ * factors by CHOLMOD 4 times and far more, conjugate gradients .7 at best, and only where there are neither pressure nor dampers.
  *
  *     struct solver solver = {0};
  *     if (solver_open(sim, &solver, err)) ...              with sim_jacobian_open()
