@@ -77,11 +77,13 @@ static enum status simulate(const struct options *options, const struct scene *s
     struct sim sim = {0};
     struct estimate *estimate = NULL;
     enum status status = sim_open(&sim, scene, *meshes, options->threads, err);
-    if (!status && options->estimate && !options->check)
+    if (!status && options->estimate && !options->check && !options->explain)
         status = estimate_open(&sim, *meshes, options->threads, &estimate, err);
     free_meshes(scene, *meshes);
     *meshes = NULL;
-    if (!status && options->check)
+    if (!status && options->explain)
+        explain_bursts(&sim, stdout);
+    else if (!status && options->check)
         print_check(&sim);
     else if (!status && options->window)
         status = sim_window(&(struct sim_window_options){options->log, WINDOW_PAST_BYTES}, &sim, estimate,
@@ -98,15 +100,17 @@ static enum status perform(const struct options *options, struct error *err)
     struct scene scene = {0};
     struct mesh *meshes = NULL;
     enum status status = load_scene(options, &scene, err);
-    if (!status && options->explain) {
+    if (!status && options->explain)
         explain_effects(&scene, stdout);
-    } else if (!status) {
+    if (!status)
         status = load_meshes(&scene, &meshes, err);
-        if (!status && options->accuracy_cost && !options->check)
+    if (!status) {
+        const bool only_told = options->check || options->explain;
+        if (options->accuracy_cost && !only_told)
             status = price_accuracy(&scene, meshes, options->accuracy_cost, err);
-        else if (!status && options->effect_cost && !options->check)
+        else if (options->effect_cost && !only_told)
             status = price_effects(&scene, meshes, options->effect_cost, err);
-        else if (!status)
+        else
             status = simulate(options, &scene, &meshes, err);
     }
     free_meshes(&scene, meshes);

@@ -13,3 +13,22 @@ expect 0 balloon-sim sphere.cfg --explain --set 'balloons[0].pressure=0' --set '
 stdout_has '^on	gas	1 of 1 balloons have the block .*adds to a step: '
 stdout_has '^on	gravity	the scene has the block '
 stdout_has '^off	drag	the scene has no such block$'
+
+# whether it can burst by itself, and what would do: the paper's sphere settles at .4 of its pressure; toy balloons are pricked below their strength
+stays() { stdout_has '^off	burst	balloons\[0\]: .* is too low to burst it by itself; it takes about [0-9.e+]+ or more \(an estimate'; }
+expect 0 balloon-sim sphere.cfg --explain
+stdout_has '^on	burst	balloons\[0\]: pressure 10 may burst it by itself, as from about [0-9.]+ on \(an estimate'
+expect 0 balloon-sim sphere.cfg --explain --set 'balloons[0].pressure=4'
+stays
+expect 0 balloon-sim sphere.cfg --set 'balloons[0].pressure=4' --set time.end=10 --hash
+stdout_has '(nothing broke|in [1-3] pieces)'
+expect 0 balloon-sim sphere.cfg --explain --set 'balloons[0].pressure=4' --set 'schedule[0].at=1' --set 'schedule[0].pressure=50'
+stdout_has '^on	burst	balloons\[0\]: pressure 50 may'
+expect 0 balloon-sim sphere.cfg --explain --set 'balloons[0].threshold=1e300'
+stdout_has '^off	burst	balloons\[0\]: no pressure bursts it: its skin bears any stretch$'
+for scene in pricked overblown; do cp "$PROGRAMS/data/$scene.cfg" "$PROGRAMS/data/round.ply" .; done
+expect 0 balloon-sim pricked.cfg --explain
+stays
+stdout_has 'evenly to a stretch of 2\.[23]'
+expect 0 balloon-sim overblown.cfg --explain
+stdout_has '^on	burst	balloons\[0\]: gas filling 30 may'
