@@ -263,13 +263,16 @@ static void replace(uint32_t *numbers, int count, uint32_t old, uint32_t new)
             numbers[i] = new;
 }
 
-static double fan_area(const struct sim *sim, const struct sim_balloon *b, struct fan fan, bool against_clock)
+/* By which masses are shared: a membrane's are its triangles' thirds; points with springs have theirs whatever the triangles, and a sliver's
+ * share would be so light that its springs and dampers ask for the smallest of steps. */
+static double fan_weight(const struct sim *sim, const struct sim_balloon *b, struct fan fan,
+                         bool against_clock)
 {
-    double area = 0;
+    double weight = 0;
     do
-        area += b->topology->rest_area[fan.triangle - b->triangle_begin];
+        weight += b->membrane ? b->topology->rest_area[fan.triangle - b->triangle_begin] : 1;
     while (turn(sim, b, &fan, against_clock));
-    return area;
+    return weight;
 }
 
 /* The edges around a point of a rim. */
@@ -289,8 +292,9 @@ static void tell_guard(struct sim *sim, struct sim_balloon *b, uint32_t point, u
 static void split(struct sim *sim, struct sim_balloon *b, struct fan fan, bool against_clock, struct fan rest)
 {
     const uint32_t point = sim->triangle_point[fan.triangle][fan.corner];
-    const double area = fan_area(sim, b, fan, against_clock), other = fan_area(sim, b, rest, !against_clock);
-    const uint32_t copy = copy_point(sim, b, point, area + other > 0 ? area / (area + other) : 0.5);
+    const double weight = fan_weight(sim, b, fan, against_clock),
+                 other = fan_weight(sim, b, rest, !against_clock);
+    const uint32_t copy = copy_point(sim, b, point, weight + other > 0 ? weight / (weight + other) : 0.5);
     b->topology->triangle_at[point - b->point_begin] = rest.triangle;
     b->topology->triangle_at[copy - b->point_begin] = fan.triangle;
     struct fan last;

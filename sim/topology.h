@@ -7,7 +7,7 @@
  *     topology_cut(sim, balloon, triangle, side);          cut the edge from corner `side` to the next
  *
  * A cut of an edge inside the skin makes a slit, at an end that lies on a rim it splits the point: of the triangles around it those on the
- * neighbour's side get a new point, which takes its share of the mass by their thirds of area at rest and has the same place
+ * neighbour's side get a new point, which takes its share of the mass, by area at rest of a membrane or else by number, and has the same place
  * and speed. No point is ever left with two fans of triangles. The neighbour gets an edge of its own; each of the two springs keeps
  * half the stiffness.
  *
