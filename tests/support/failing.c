@@ -93,9 +93,14 @@ static bool is_early(const void *block)
     return (const char *)block >= early && (const char *)block < early + sizeof early;
 }
 
+/* volatile: <dlfcn.h> promises that dlsym() does not come back here, which it does for memory */
+static _Thread_local volatile bool looking __attribute__((tls_model("initial-exec")));
+
 static void *find(const char *name)
 {
+    looking = true;
     void *function = dlsym(RTLD_NEXT, name);
+    looking = false;
     if (!function)
         abort();
     return function;
@@ -109,20 +114,21 @@ static void *find(const char *name)
 
 void *malloc(size_t size)
 {
-    REAL(malloc)
+    static __typeof__(&malloc) real;
+    if (!real && looking)
+        return early_calloc(size);
+    if (!real)
+        *(void **)&real = find("malloc");
     return fails(FAILING_MEMORY, "malloc", __builtin_return_address(0)) ? NULL : real(size);
 }
 
 void *calloc(size_t count, size_t size)
 {
-    static bool looking;
     static __typeof__(&calloc) real;
-    if (!real) {
-        if (looking)
-            return early_calloc(count * size);
-        looking = true;
+    if (!real && looking)
+        return early_calloc(count * size);
+    if (!real)
         *(void **)&real = find("calloc");
-    }
     return fails(FAILING_MEMORY, "calloc", __builtin_return_address(0)) ? NULL : real(count, size);
 }
 
@@ -132,11 +138,15 @@ void *realloc(void *block, size_t size)
     return fails(FAILING_MEMORY, "realloc", __builtin_return_address(0)) ? NULL : real(block, size);
 }
 
+/* What is freed while free() itself is looked up is an old message about a function that was not found: it stays. */
 void free(void *block)
 {
-    REAL(free)
-    if (!is_early(block))
-        real(block);
+    static __typeof__(&free) real;
+    if (is_early(block) || (!real && looking))
+        return;
+    if (!real)
+        *(void **)&real = find("free");
+    real(block);
 }
 
 /* A function that only has to be counted. */
