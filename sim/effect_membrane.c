@@ -172,7 +172,7 @@ static const double most_a = 1e6, least_d = MEMBRANE_CRUSHED / 2;
 
 /* The guard's range around a strain, which must hold what there is: with so much room that it is seldom asked again, and moved back only
  * where it has become far too wide. Near a law's limit a little more of stretch is a lot more of stiffness. */
-static const double room = 1.15, too_wide = 2;
+static const double room[2] = {1.15, 1.3}, too_wide = 2;
 
 static void watch(struct sim *sim, struct sim_balloon *b)
 {
@@ -182,8 +182,8 @@ static void watch(struct sim *sim, struct sim_balloon *b)
             most = fmax(most, b->membrane->range[i][0]);
             least = fmin(least, b->membrane->range[i][1]);
         }
-    const double wanted[2] = {fmin(room * fmax(most, first_range[0] / room), most_a),
-                              fmax(fmin(least, first_range[1] * room) / room, least_d)};
+    const double wanted[2] = {fmin(room[0] * fmax(most, first_range[0] / room[0]), most_a),
+                              fmax(fmin(least, first_range[1] * room[1]) / room[1], least_d)};
     const bool narrow = fmin(most, most_a) > range[0] || fmax(least, least_d) < range[1];
     const bool wide = wanted[0] * too_wide < range[0] || wanted[1] > range[1] * too_wide;
     if (!narrow && !wide)

@@ -17,6 +17,8 @@ enum status guard_open(struct sim *sim, struct error *err)
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
         if (!(*arrays[i] = sim_table(sim, sim->point_count, sizeof **arrays[i])))
             return error_no_memory(err, "the guard");
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        guard->x[p] = 1;
     sim->substeps = 1;
     sim->whole_step = sim->step;
     return STATUS_OK;
@@ -44,7 +46,8 @@ void guard_outdated(struct sim *sim)
 size_t guard_blocks(struct sim *sim, struct sim_block *blocks)
 {
     blocks[0] = (struct sim_block){"guard", &sim->guard->memory, sizeof sim->guard->memory};
-    return 1;
+    blocks[1] = (struct sim_block){"guard's vector", sim->guard->x, sim->point_count * sizeof *sim->guard->x};
+    return 2;
 }
 
 /* The kinetic energy of a block of points, or no number when one of their places or speeds is none: 0 times that is NaN, and

@@ -151,8 +151,6 @@ void guard_find_bound(struct sim *sim)
     enum { ITERATIONS_MAX = 40 };
     struct guard_memory *memory = &sim->guard->memory;
     const struct limits l = limits_of(sim);
-    for (uint32_t p = 0; p < sim->point_count; p++)
-        sim->guard->x[p] = 1;
     find_rows(sim);
     memory->stable = 0;
     for (int i = 0; i < ITERATIONS_MAX; i++) {
@@ -163,7 +161,7 @@ void guard_find_bound(struct sim *sim)
             memory->point = point;
             memory->cause = cause_at(sim, &l, h, point);
         }
-        if (isinf(h) || h == 0 || (i % 8 == 7 && memory->stable < 1.002 * before))
+        if (isinf(h) || h == 0 || (i % 4 == 3 && memory->stable < 1.002 * before))
             break;
         sharpen(sim, &l, h);
     }
