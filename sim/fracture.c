@@ -235,11 +235,14 @@ void sim_prick(struct sim *sim, uint32_t triangle, const double place[3])
 static void births(struct sim *sim, struct sim_balloon *b)
 {
     struct fracture *f = b->fracture;
-    if (f->now.births == BIRTHS_MAX)
-        return;
     const uint32_t t = weakest(sim, b);
     if (t == MESH_NONE || !topology_can_cut(sim, b))
         return;
+    if (f->now.births == BIRTHS_MAX) {
+        if (f->now.refused_births++ == 0)
+            sim_tell(sim, b, "fracture", "has begun to tear in 128 places: it does in no further one");
+        return;
+    }
     const uint32_t *p = sim->triangle_point[t];
     uint32_t point = p[0];
     for (int k = 1; k < 3; k++)

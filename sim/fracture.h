@@ -58,8 +58,9 @@ struct fracture {
     double (*births)[3];    /* [BIRTHS_MAX] places at rest */
     struct fracture_counts {
         uint32_t tips, births;
-        uint32_t pieces; /* that fell off */
-        uint32_t events; /* cuts by the rule */
+        uint32_t pieces;                       /* that fell off */
+        uint32_t events;                       /* cuts by the rule */
+        uint32_t refused_tips, refused_births; /* for want of room in the tables */
         double next_look;
     } now;
 };

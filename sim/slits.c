@@ -143,8 +143,11 @@ static void add_tip(struct sim *sim, struct sim_balloon *b, const struct crack_t
     uint32_t i = 0;
     while (i < f->now.tips && f->tips[i].alive)
         i++;
-    if (i == TIPS_MAX)
+    if (i == TIPS_MAX) {
+        if (f->now.refused_tips++ == 0)
+            sim_tell(sim, b, "fracture", "has 512 cracks that run at once: further arms stop");
         return;
+    }
     f->tips[i] = tip;
     if (i == f->now.tips)
         f->now.tips++;
