@@ -1,5 +1,6 @@
 #include "sim/live.h"
 #include "common/scene_fields.h"
+#include "sim/effect_gas.h"
 #include "sim/guard.h"
 
 #include <math.h>
@@ -39,7 +40,8 @@ static double frame_seconds(const struct live *live)
 /* The state as it is becomes the newest frame. */
 static enum status keep_frame(struct live *live, struct error *err)
 {
-    const struct live_marks marks = {live->sim->time, live_stretch(live), live_value(live, LIVE_PRESSURE)};
+    const struct live_marks marks = {live->sim->time, live_stretch(live),
+                                     gas_gauge_pressure(live->sim, live->sim->balloons)};
     enum status status = live_past_add(&live->past, live->sim, marks, err);
     live->shown = live->past.count - 1;
     live->due = (floor(live->sim->time / frame_seconds(live) + 1e-6) + 1) * frame_seconds(live);

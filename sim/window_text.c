@@ -64,7 +64,7 @@ static void describe_state(const struct app *app, char *text, size_t size)
     if (!app->live.paused)
         snprintf(speed, sizeof speed, "%.2g x", app->live.speed);
     snprintf(text, size,
-             "%.3f s  %s%s  %.0f steps/s  %.0f frames/s\nenergy %.4g moving + %.4g in springs   error %s\n"
+             "%.3f s  %s%s  %.0f steps/s  %.0f frames/s\nenergy %.4g moving + %.4g in the skin   error %s\n"
              "%u triangles in %u piece%s   effects: %s   F1 help",
              app->live.sim->time, going, speed, app->live.rate, app->frames_rate, m->kinetic_energy,
              m->elastic_energy, error, m->triangles_active, m->pieces, m->pieces == 1 ? "" : "s", active);
