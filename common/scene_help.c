@@ -75,7 +75,7 @@ void scene_write_mdoc(FILE *stream)
     for (size_t i = 0; i < scene_block_count; i++) {
         const struct scene_block *block = &scene_blocks[i];
         fprintf(stream, ".Ss %s%s%s%s\n%s.\n.Bl -tag -width spring_factor\n", block->parent,
-                *block->parent ? "[]." : "", block->name, block->list ? "[]" : "", block->meaning);
+                *block->parent ? "[]." : "", block->name, block->list ? "[]\\&" : "", block->meaning);
         for (size_t j = 0; j < block->field_count; j++) {
             fprintf(stream, ".It Cm %s\n\\&%s\n.br\n", block->fields[j].key, block->fields[j].meaning);
             write_facts(stream, &block->fields[j]);
