@@ -22,8 +22,9 @@ const char *const scene_guard_names[] = {"substep", "refuse", "off", NULL};
 const char *const scene_pressure_on_names[] = {"points", "areas", NULL};
 const char *const scene_process_names[] = {"isothermal", "adiabatic", NULL};
 const char *const scene_mode_names[] = {"tear", "paper", NULL};
-const char *const scene_stereo_names[] = {"mono",       "parallel", "crossed", "over-under", "red-cyan",
-                                          "interlaced", "left",     "right",   "separate",   NULL};
+const char *const scene_stereo_names[] = {"mono",     "parallel",   "crossed", "over-under",
+                                          "red-cyan", "interlaced", "quad",    "left",
+                                          "right",    "separate",   NULL};
 const char *const scene_squeezed_names[] = {"no", "yes", NULL};
 const char *const scene_shape_names[] = {"sphere", "box", NULL};
 const char *const scene_style_names[] = {"latex", "paper", NULL};

@@ -223,6 +223,16 @@ static enum status draw_one_eye(struct band *band, struct error *err)
     return status;
 }
 
+/* What becomes of an eye's picture as soon as it is drawn: halves need nothing. */
+static void put_eye(const struct band *band, int eye, int rows)
+{
+    struct render *render = band->render;
+    if (stereo_is_mixed(band->view->stereo))
+        stereo_keep(&render->stereo, &render->gl, &render->target, eye);
+    else if (band->view->stereo == RENDER_QUAD)
+        target_show(&render->target, &render->gl, eye ? GL_BACK_RIGHT : GL_BACK_LEFT, band->below, rows);
+}
+
 enum status render_bands(struct render *render, const struct render_view *view,
                          const struct render_scene *scene, struct image *out, struct error *err)
 {
@@ -230,21 +240,22 @@ enum status render_bands(struct render *render, const struct render_view *view,
     int count = camera_eyes(view, eyes), rows = render->target.height;
     enum status status = STATUS_OK;
     for (int below = 0; below < view->height && !status; below += rows) {
-        int left = view->height - below;
+        const int left = view->height - below, shown = left < rows ? left : rows;
         for (int i = 0; i < count && !status; i++) {
+            struct band band = {render, view, scene, &eyes[i], below};
             target_bind_drawn(&render->target, &render->gl);
-            status = draw_one_eye(&(struct band){render, view, scene, &eyes[i], below}, err);
-            if (!status && stereo_is_mixed(view->stereo))
-                stereo_keep(&render->stereo, &render->gl, &render->target, i);
+            status = draw_one_eye(&band, err);
+            if (!status)
+                put_eye(&band, i, shown);
         }
         if (status)
             break;
         if (stereo_is_mixed(view->stereo))
             stereo_mix(&render->stereo, &render->gl, &render->target, view, below);
         if (out)
-            status = target_read(&render->target, &render->gl, out, below, left < rows ? left : rows, err);
-        else
-            target_show(&render->target, &render->gl, below, left < rows ? left : rows);
+            status = target_read(&render->target, &render->gl, out, below, shown, err);
+        else if (view->stereo != RENDER_QUAD)
+            target_show(&render->target, &render->gl, GL_BACK, below, shown);
     }
     return status;
 }

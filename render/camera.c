@@ -38,10 +38,11 @@ static enum status check_size(const struct render_view *view, struct error *err)
     if (view->width < 1 || view->height < 1 || view->width > IMAGE_SIDE_MAX || view->height > IMAGE_SIDE_MAX)
         return error_set(err, STATUS_RANGE, "a picture of %d x %d cannot be drawn; each side must be 1 to %d",
                          view->width, view->height, IMAGE_SIDE_MAX);
-    const bool beside = view->stereo == RENDER_PARALLEL || view->stereo == RENDER_CROSSED;
-    if ((beside && view->width % 2) || (view->stereo == RENDER_OVER_UNDER && view->height % 2))
+    int parts[2];
+    camera_parts(view->stereo, parts);
+    if (view->width % parts[0] || view->height % parts[1])
         return error_set(err, STATUS_RANGE, "a stereo picture %d %s cannot be halved; that must be even",
-                         beside ? view->width : view->height, beside ? "wide" : "high");
+                         parts[0] == 2 ? view->width : view->height, parts[0] == 2 ? "wide" : "high");
     return STATUS_OK;
 }
 
@@ -98,23 +99,16 @@ void camera_to_space(const struct camera_space *space, const double point[3], do
         out[i] *= space->scale;
 }
 
-static bool is_half(enum render_stereo stereo)
+void camera_parts(enum render_stereo stereo, int parts[2])
 {
-    return stereo == RENDER_PARALLEL || stereo == RENDER_CROSSED || stereo == RENDER_OVER_UNDER;
-}
-
-/* The whole picture in which an eye's lies: halves are so many columns and rows. */
-static void count_parts(const struct render_view *view, int parts[2])
-{
-    const bool half = is_half(view->stereo), rows = view->stereo == RENDER_OVER_UNDER;
-    parts[0] = half && !rows ? 2 : 1;
-    parts[1] = half && rows ? 2 : 1;
+    parts[0] = stereo == RENDER_PARALLEL || stereo == RENDER_CROSSED ? 2 : 1;
+    parts[1] = stereo == RENDER_OVER_UNDER ? 2 : 1;
 }
 
 double camera_aspect(const struct render_view *view)
 {
     int parts[2];
-    count_parts(view, parts);
+    camera_parts(view->stereo, parts);
     if (view->squeezed)
         return (double)view->width / view->height;
     return (double)(view->width / parts[0]) / (view->height / parts[1]);
@@ -135,7 +129,7 @@ int camera_eyes(const struct render_view *view, struct camera_eye eyes[2])
     const bool alone = view->stereo == RENDER_MONO || view->stereo >= RENDER_LEFT;
     int count = alone ? 1 : 2, parts[2];
     double half_height = tan(radians(camera->field_of_view_deg) / 2);
-    count_parts(view, parts);
+    camera_parts(view->stereo, parts);
     int width = view->width / parts[0], height = view->height / parts[1];
     for (int i = 0; i < count; i++) {
         double side = side_of(view->stereo, i);

@@ -34,6 +34,9 @@ void camera_turn(const struct camera_space *space, const double direction[3], do
  * eye. */
 int camera_eyes(const struct render_view *view, struct camera_eye eyes[2]);
 
+/* Into how many columns and rows eyes divide the picture: 2 of one where each has a half. */
+void camera_parts(enum render_stereo stereo, int parts[2]);
+
 /* Width over height of what one eye sees. */
 double camera_aspect(const struct render_view *view);
 

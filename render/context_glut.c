@@ -17,6 +17,7 @@ struct window {
     const struct window_events *events;
     void *self;
     struct gl gl;
+    bool quad;           /* the screen shows two buffers, an eye's each */
     int timer;           /* number of the timer call that is waited for */
     bool leaving, going; /* window_run() ends; the window is being destroyed */
     jmp_buf out;         /* of freeglut's main loop */
@@ -185,6 +186,7 @@ static enum status open_glut(struct window *window, const char *title, struct er
     char name[] = "balloon", *words[] = {name, NULL};
     int count = 1;
     const char *display = getenv("DISPLAY");
+    const unsigned plain = GLUT_RGBA | GLUT_DOUBLE; /* depth and samples are the target's */
     glutInitErrorFunc(on_error);
     glutInitWarningFunc(on_warning);
     if (setjmp(failed)) {
@@ -193,11 +195,14 @@ static enum status open_glut(struct window *window, const char *title, struct er
                          display ? display : "", failure);
     }
     glutInit(&count, words);
-    glutInitDisplayMode(GLUT_RGBA | GLUT_DOUBLE); /* depth and samples are the target's */
+    glutInitDisplayMode(plain | GLUT_STEREO);
+    if (!glutGet(GLUT_DISPLAY_MODE_POSSIBLE))
+        glutInitDisplayMode(plain);
     glutInitContextVersion(3, 3);
     glutInitContextProfile(GLUT_CORE_PROFILE);
     glutInitWindowSize(window->width, window->height);
     window->id = glutCreateWindow(title);
+    window->quad = glutGet(GLUT_WINDOW_STEREO);
     glutSetOption(GLUT_ACTION_ON_WINDOW_CLOSE, GLUT_ACTION_CONTINUE_EXECUTION);
     glutInitErrorFunc(NULL);
     return STATUS_OK;
@@ -273,6 +278,11 @@ void window_size(const struct window *window, int *width, int *height)
 {
     *width = window->width;
     *height = window->height;
+}
+
+bool window_has_quad(const struct window *window)
+{
+    return window->quad;
 }
 
 static void copy_rows(const struct window *window, const unsigned char *pixels, struct image *image)

@@ -42,6 +42,7 @@
     X(DepthMask, DEPTHMASK)                                           \
     X(Disable, DISABLE)                                               \
     X(DrawArrays, DRAWARRAYS)                                         \
+    X(DrawBuffer, DRAWBUFFER)                                         \
     X(DrawBuffers, DRAWBUFFERS)                                       \
     X(DrawElements, DRAWELEMENTS)                                     \
     X(Enable, ENABLE)                                                 \

@@ -91,23 +91,32 @@ void orbit_camera(const struct orbit *orbit, struct render_camera *camera)
     }
 }
 
-bool orbit_ray(const struct render_view *view, double x, double y, double origin[3], double direction[3])
+/* The eye whose pixel it is; where that is both, one between them. */
+static struct camera_eye eye_at(const struct render_view *view, double x, double y)
 {
     struct camera_eye eyes[2];
+    const int count = camera_eyes(view, eyes), below = view->height - eyes[count - 1].height;
+    if (count == 2 && !eyes[1].left && !below)
+        eyes[0].offset = eyes[0].shear = 0;
+    else if (count == 2 && (eyes[1].left ? x >= eyes[1].left : y >= below))
+        return eyes[1];
+    return eyes[0];
+}
+
+bool orbit_ray(const struct render_view *view, double x, double y, double origin[3], double direction[3])
+{
     struct camera_space space;
     struct error ignored;
     if (camera_check(view, &ignored))
         return false;
     camera_space_of(&view->camera, &space);
-    int count = camera_eyes(view, eyes);
-    const struct camera_eye *eye =
-        &eyes[count == 2 && x >= eyes[1].left && y >= view->height - eyes[1].bottom - eyes[1].height];
-    int top = view->height - eye->bottom - eye->height;
-    double across = (2 * (x - eye->left) / eye->width - 1) * eye->half_width[0] + eye->shear;
-    double up = (1 - 2 * (y - top) / eye->height) * eye->half_width[1];
+    const struct camera_eye eye = eye_at(view, x, y);
+    int top = view->height - eye.bottom - eye.height;
+    double across = (2 * (x - eye.left) / eye.width - 1) * eye.half_width[0] + eye.shear;
+    double up = (1 - 2 * (y - top) / eye.height) * eye.half_width[1];
     double length = sqrt(across * across + up * up + 1);
     for (int i = 0; i < 3; i++) {
-        origin[i] = space.origin[i] + space.axis[0][i] * eye->offset / space.scale;
+        origin[i] = space.origin[i] + space.axis[0][i] * eye.offset / space.scale;
         direction[i] = (across * space.axis[0][i] + up * space.axis[1][i] - space.axis[2][i]) / length;
     }
     return true;
@@ -130,16 +139,58 @@ bool orbit_key(struct orbit *orbit, int key, bool other)
     }
 }
 
-void orbit_change_stereo(struct orbit *orbit, struct render_view *view)
+/* How much further away than a picture as wide as high one needs to be. */
+static double narrowness(const struct render_view *view)
 {
-    static const enum render_stereo next[] = {
-        [RENDER_MONO] = RENDER_PARALLEL, [RENDER_PARALLEL] = RENDER_CROSSED, [RENDER_CROSSED] = RENDER_MONO};
-    const double narrower = fmax(1, 2.0 * view->height / view->width);
-    const enum render_stereo before = view->stereo;
-    const bool known = before <= RENDER_CROSSED; /* any other has the whole picture for each eye */
-    view->stereo = known ? next[before] : RENDER_MONO;
-    if (before == RENDER_MONO)
-        orbit->distance *= narrower;
-    else if (known && view->stereo == RENDER_MONO)
-        orbit->distance /= narrower;
+    return fmax(1, 1 / camera_aspect(view));
+}
+
+const char *orbit_change_stereo(struct orbit *orbit, struct render_view *view, bool quad)
+{
+    static const struct {
+        enum render_stereo next;
+        const char *text;
+    } layouts[] = {
+        [RENDER_MONO] = {RENDER_PARALLEL, "stereo: one eye"},
+        [RENDER_PARALLEL] = {RENDER_CROSSED, "stereo: side by side, for a viewer or parallel eyes"},
+        [RENDER_CROSSED] = {RENDER_OVER_UNDER, "stereo: side by side, for crossed eyes"},
+        [RENDER_OVER_UNDER] = {RENDER_RED_CYAN, "stereo: the left eye's picture above the right one's"},
+        [RENDER_RED_CYAN] = {RENDER_INTERLACED, "stereo: for red and cyan glasses"},
+        [RENDER_INTERLACED] = {RENDER_QUAD, "stereo: row by row, the left eye's first"},
+        [RENDER_QUAD] = {RENDER_MONO, "stereo: in the screen's two buffers"},
+        [RENDER_LEFT] = {RENDER_MONO, "stereo: the left eye"},
+        [RENDER_RIGHT] = {RENDER_MONO, "stereo: the right eye"},
+    };
+    const double before = narrowness(view);
+    view->stereo = layouts[view->stereo].next;
+    if (view->stereo == RENDER_QUAD && !quad)
+        view->stereo = RENDER_MONO;
+    orbit->distance *= narrowness(view) / before;
+    return layouts[view->stereo].text;
+}
+
+void orbit_make_even(struct render_view *view)
+{
+    int parts[2];
+    camera_parts(view->stereo, parts);
+    view->width -= view->width > 1 ? view->width % parts[0] : 0;
+    view->height -= view->height > 1 ? view->height % parts[1] : 0;
+}
+
+void orbit_eye_size(const struct render_view *view, int size[2])
+{
+    struct render_view even = *view;
+    int parts[2];
+    orbit_make_even(&even);
+    camera_parts(view->stereo, parts);
+    size[0] = even.width > parts[0] ? even.width / parts[0] : 1;
+    size[1] = even.height > parts[1] ? even.height / parts[1] : 1;
+}
+
+void orbit_eye_place(const struct render_view *view, int place[2])
+{
+    int size[2];
+    orbit_eye_size(view, size);
+    for (int i = 0; i < 2; i++)
+        place[i] = place[i] >= 0 ? place[i] % size[i] : place[i];
 }

@@ -107,6 +107,8 @@ static enum status prepare(struct render *render, const struct render_view *view
 enum status render_draw_scene(struct render *render, const struct render_view *view,
                               const struct render_scene *scene, struct image *out, struct error *err)
 {
+    if (view->stereo == RENDER_QUAD)
+        return error_set(err, STATUS_RANGE, "an image has no two buffers; its eyes can be side by side");
     enum status status = prepare(render, view, scene, err);
     if (!status)
         status = image_resize(out, view->width, view->height, err);
@@ -125,6 +127,8 @@ enum status render_show(struct render *render, const struct render_view *view,
                         const struct render_scene *scene, struct error *err)
 {
     assert(render->window);
+    if (view->stereo == RENDER_QUAD && !window_has_quad(render->window))
+        return error_set(err, STATUS_RESOURCE, "this screen has no two buffers, one for each eye");
     enum status status = prepare(render, view, scene, err);
     return status ? status : render_bands(render, view, scene, NULL, err);
 }

@@ -42,6 +42,7 @@ enum render_stereo {
     RENDER_OVER_UNDER, /* the left eye's above */
     RENDER_RED_CYAN,   /* for glasses with the red before the left eye */
     RENDER_INTERLACED, /* rows in turn, the left eye's the first from above */
+    RENDER_QUAD,       /* each in a buffer of its own of a window that has two (window.h), and in no image */
     RENDER_LEFT,       /* what the left eye sees */
     RENDER_RIGHT,
 };
@@ -63,7 +64,7 @@ enum render_order {
 enum { RENDER_SAMPLES_MAX = 4 };
 
 struct render_view {
-    int width, height; /* of the whole picture, 1 .. IMAGE_SIDE_MAX; the width even in stereo */
+    int width, height; /* of the whole picture, 1 .. IMAGE_SIDE_MAX; what is halved, even */
     struct render_camera camera;
     enum render_stereo stereo;
     bool squeezed; /* halves hold pictures of the whole's proportions, for screens that stretch them again */

@@ -108,10 +108,11 @@ enum status target_read(struct target *target, const struct gl *gl, struct image
 }
 
 /* The bytes are copied as they are: a window shows sRGB whether or not it knows. */
-void target_show(const struct target *target, const struct gl *gl, int below, int rows)
+void target_show(const struct target *target, const struct gl *gl, GLenum buffer, int below, int rows)
 {
     gl->BindFramebuffer(GL_READ_FRAMEBUFFER, target_read_from(target));
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    gl->DrawBuffer(buffer);
     gl->Disable(GL_FRAMEBUFFER_SRGB);
     gl->BlitFramebuffer(0, 0, target->width, rows, 0, below, target->width, below + rows, GL_COLOR_BUFFER_BIT,
                         GL_NEAREST);

@@ -32,8 +32,8 @@ void target_resolve(const struct target *target, const struct gl *gl, const int 
 enum status target_read(struct target *target, const struct gl *gl, struct image *out, int below, int rows,
                         struct error *err);
 
-/* The same, to the window. */
-void target_show(const struct target *target, const struct gl *gl, int below, int rows);
+/* The same, to a buffer of the window: GL_BACK, or of two GL_BACK_LEFT or GL_BACK_RIGHT. */
+void target_show(const struct target *target, const struct gl *gl, GLenum buffer, int below, int rows);
 
 void target_clear(struct target *target, const struct gl *gl);
 

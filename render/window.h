@@ -66,7 +66,7 @@ struct window_events {
 
 /* Opens a window whose picture is width x height pixels, at a place of the window manager's choice. `events`
  * and `self` are borrowed. Errors, each one line: STATUS_RESOURCE where there is no display, or none that
- * gives OpenGL 3.3; STATUS_NO_MEMORY. */
+ * gives OpenGL 3.3; STATUS_NO_MEMORY. Where the screen has buffers for two eyes the window has them. */
 enum status window_open(const char *title, int width, int height, const struct window_events *events,
                         void *self, struct window **window, struct error *err);
 
@@ -88,6 +88,9 @@ void window_timer(struct window *window, int milliseconds);
 
 void window_title(struct window *window, const char *title);
 void window_size(const struct window *window, int *width, int *height);
+
+/* True where each eye has a buffer of its own to show, in turn: quad-buffered stereo (render.h: RENDER_QUAD). */
+bool window_has_quad(const struct window *window);
 
 /* Calls draw() and copies the window's picture into *image, which is resized. Errors: STATUS_NO_MEMORY. */
 enum status window_screenshot(struct window *window, struct image *image, struct error *err);

@@ -65,8 +65,7 @@ void app_see_all(struct app *app)
 struct render_view app_drawn_view(const struct app *app)
 {
     struct render_view view = app->view;
-    if (view.stereo && view.width > 1)
-        view.width &= ~1; /* two halves */
+    orbit_make_even(&view);
     orbit_camera(&app->orbit, &view.camera);
     return view;
 }

@@ -124,7 +124,7 @@ void app_say(struct app *app, const char *text);
 void app_say_unless_ok(struct app *app, enum status status, const struct error *err);
 void app_show_title(struct app *app);
 
-/* The picture as it is drawn and aimed at: stereo needs an even width. */
+/* The picture as it is drawn and aimed at: halves are alike. */
 struct render_view app_drawn_view(const struct app *app);
 
 /* Finds what is under the pointer. */

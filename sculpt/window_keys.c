@@ -190,7 +190,7 @@ static void view_key(struct app *app, int key, int modifiers)
         app_forget_faces(app);
         break;
     case 'v':
-        orbit_change_stereo(&app->orbit, &app->view);
+        app_say(app, orbit_change_stereo(&app->orbit, &app->view, window_has_quad(app->window)));
         break;
     case 'p':
         toggle_balloon(app);

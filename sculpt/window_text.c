@@ -93,18 +93,18 @@ static void wrap(char *text, int columns)
 static void add_text(const struct app *app, struct render_text *texts, size_t *count, char storage[TEXT_SIZE],
                      int x, int y, const float colour[3])
 {
-    const int width = app->view.stereo ? app->view.width / 2 : app->view.width;
     struct render_text *text = &texts[*count];
-    int w, h;
+    int size[2], w, h;
+    orbit_eye_size(&app->view, size);
     *text = (struct render_text){storage, x, y, 2, {colour[0], colour[1], colour[2]}, true};
     render_text_size(text, &w, &h);
-    if (x + w > width) {
+    if (x + w > size[0]) {
         text->scale = 1;
-        wrap(storage, (width - x - MARGIN - 2 * BOX_MARGIN) / LETTER_WIDTH);
+        wrap(storage, (size[0] - x - MARGIN - 2 * BOX_MARGIN) / LETTER_WIDTH);
         render_text_size(text, &w, &h);
     }
     if (y < 0)
-        text->y = app->view.height + y - h;
+        text->y = size[1] + y - h;
     (*count)++;
 }
 
@@ -113,7 +113,9 @@ size_t app_texts(const struct app *app, struct render_text texts[WINDOW_TEXTS_MA
     static const float white[3] = {1, 1, 1}, warm[3] = {1, 0.8f, 0.3f};
     static char storage[WINDOW_TEXTS_MAX][TEXT_SIZE];
     size_t count = 0;
-    if (app->open && app->view.height >= ROOM_FOR_TOOL) {
+    int size[2];
+    orbit_eye_size(&app->view, size);
+    if (app->open && size[1] >= ROOM_FOR_TOOL) {
         describe_tool(app, storage[count], TEXT_SIZE);
         add_text(app, texts, &count, storage[count], MARGIN, -MARGIN, white);
     }
@@ -127,6 +129,6 @@ size_t app_texts(const struct app *app, struct render_text texts[WINDOW_TEXTS_MA
     }
     describe_question(app, storage[count], TEXT_SIZE);
     if (storage[count][0])
-        add_text(app, texts, &count, storage[count], 3 * MARGIN, app->view.height / 2 - 20, white);
+        add_text(app, texts, &count, storage[count], 3 * MARGIN, size[1] / 2 - 20, white);
     return count;
 }

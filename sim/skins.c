@@ -93,8 +93,8 @@ void skins_view(const struct scene_view *scene, struct render_view *view)
         [SCENE_MONO] = RENDER_MONO,         [SCENE_PARALLEL] = RENDER_PARALLEL,
         [SCENE_CROSSED] = RENDER_CROSSED,   [SCENE_OVER_UNDER] = RENDER_OVER_UNDER,
         [SCENE_RED_CYAN] = RENDER_RED_CYAN, [SCENE_INTERLACED] = RENDER_INTERLACED,
-        [SCENE_LEFT] = RENDER_LEFT,         [SCENE_RIGHT] = RENDER_RIGHT,
-        [SCENE_SEPARATE] = RENDER_PARALLEL,
+        [SCENE_QUAD] = RENDER_PARALLEL,     [SCENE_LEFT] = RENDER_LEFT,
+        [SCENE_RIGHT] = RENDER_RIGHT,       [SCENE_SEPARATE] = RENDER_PARALLEL,
     };
     static const enum render_order orders[] = {[SCENE_ORDER_NONE] = RENDER_NONE,
                                                [SCENE_ORDER_SORT] = RENDER_SORT,

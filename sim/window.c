@@ -44,15 +44,12 @@ void app_show_title(struct app *app)
     window_redraw(app->window);
 }
 
-int app_eye_width(const struct app *app)
+struct panel_box app_eye(const struct app *app)
 {
-    const int pictures = app->view.stereo == RENDER_MONO ? 1 : 2;
-    return app->view.width > 1 ? app->view.width / pictures : 1;
-}
-
-int app_eye_x(const struct app *app, int x)
-{
-    return x >= 0 ? x % app_eye_width(app) : x;
+    int place[2] = {app->x, app->y}, size[2];
+    orbit_eye_size(&app->view, size);
+    orbit_eye_place(&app->view, place);
+    return (struct panel_box){app->x - place[0], app->y - place[1], size[0], size[1]};
 }
 
 /* The next tick, once a picture's time has passed since the last. */
@@ -178,7 +175,7 @@ static void moved(void *self, int x, int y, int modifiers)
     else if (app->drag == DRAG_PULL)
         pull(app);
     else if (app->drag == DRAG_DIAL || app->drag == DRAG_TIME)
-        app_drag_slider(app, app_eye_x(app, x));
+        app_drag_slider(app, x - app->pressed_eye.x);
     if (app->drag != DRAG_NOTHING)
         window_redraw(app->window);
 }
@@ -190,11 +187,12 @@ static void begin_drag(struct app *app, enum window_button button, int modifiers
     } else if (button == WINDOW_MIDDLE || modifiers & WINDOW_ALT) {
         app->drag = DRAG_TURN;
     } else {
-        app->drag = app_find_slider(app, app_eye_x(app, app->x), app->y, &app->dial);
+        const struct panel_box eye = app->pressed_eye = app_eye(app);
+        app->drag = app_find_slider(app, app->x - eye.x, app->y - eye.y, &app->dial);
         if (app->drag == DRAG_NOTHING)
             app->drag = DRAG_TOOL;
         else
-            app_drag_slider(app, app_eye_x(app, app->x));
+            app_drag_slider(app, app->x - eye.x);
     }
     app->pressed_x = app->x;
     app->pressed_y = app->y;
@@ -315,6 +313,17 @@ static void set_camera(struct app *app)
     app->view.floor_height = app->ball[1] - 1.8 * radius; /* as in the film */
 }
 
+/* Where the scene asks for two buffers and the screen has them. */
+static void use_quad(struct app *app)
+{
+    if (app->live.sim->scene->view.stereo != SCENE_QUAD)
+        return;
+    if (window_has_quad(app->window))
+        app->view.stereo = RENDER_QUAD;
+    else
+        app_say(app, "stereo: this screen has no buffer for each eye; side by side instead");
+}
+
 static enum status open_window(struct app *app, struct error *err)
 {
     static const struct window_events events = {.draw = drawn,
@@ -331,6 +340,7 @@ static enum status open_window(struct app *app, struct error *err)
             "%.800s; --frames DIR, --movie FILE, --contact-sheet FILE and --log FILE run without one",
             reason.text);
     enum status status = render_open_window(app->window, &app->render, err);
+    use_quad(app);
     if (!status)
         status = app_open_pictures(app, err);
     return status;

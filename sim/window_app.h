@@ -12,6 +12,11 @@
 #include "sim/skins.h"
 #include "sim/window.h"
 
+/* Pixels, from the upper left corner. */
+struct panel_box {
+    int x, y, width, height;
+};
+
 /* What a button that is held does. */
 enum drag { DRAG_NOTHING, DRAG_TOOL, DRAG_PULL, DRAG_TURN, DRAG_PAN, DRAG_DIAL, DRAG_TIME };
 
@@ -51,9 +56,10 @@ struct app {
     bool stretch_colours, panel, help;
 
     enum drag drag;
-    enum live_dial dial;      /* that is dragged */
-    int x, y;                 /* of the pointer */
-    int pressed_x, pressed_y; /* where the button went down */
+    enum live_dial dial;          /* that is dragged */
+    int x, y;                     /* of the pointer */
+    int pressed_x, pressed_y;     /* where the button went down, */
+    struct panel_box pressed_eye; /* and in which eye's picture */
 
     double clock;       /* app_seconds() at the last tick */
     double drawing;     /* seconds that the last picture took */
@@ -100,15 +106,14 @@ void app_restart(struct app *app);
 /* All that is left of the skin in the middle of the picture. */
 void app_see_all(struct app *app);
 
-/* The size of one eye's picture, and a place of the window in it. */
-int app_eye_width(const struct app *app);
-int app_eye_x(const struct app *app, int x);
+/* The eye's picture that the pointer is in; each has all sliders and texts. */
+struct panel_box app_eye(const struct app *app);
 
 /* window_keys.c: a key was pressed (struct window_events). */
 void app_key(void *self, int key, int modifiers);
 extern const char app_help[];
 
-/* window_draw.c: the picture as it is drawn and aimed at: stereo needs an even width. */
+/* window_draw.c: the picture as it is drawn and aimed at: halves are alike. */
 struct render_view app_drawn_view(const struct app *app);
 
 /* Shows everything, into the window; the skin alone, into app->image. */
@@ -132,9 +137,6 @@ double app_dial_value(const struct app *app, enum live_dial dial, double part);
 double app_dial_part(const struct app *app, enum live_dial dial);
 void app_drag_slider(struct app *app, int x);
 
-struct panel_box {
-    int x, y, width, height;
-};
 struct panel_box app_slider(const struct app *app, enum live_dial dial);
 struct panel_box app_time_slider(const struct app *app);
 struct panel_box app_plot(const struct app *app);

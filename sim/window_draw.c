@@ -151,8 +151,7 @@ static bool make_wires(struct app *app)
 struct render_view app_drawn_view(const struct app *app)
 {
     struct render_view view = app->view;
-    if (view.stereo && view.width > 1)
-        view.width &= ~1; /* two halves */
+    orbit_make_even(&view);
     orbit_camera(&app->orbit, &view.camera);
     view.camera.eye_distance = app->eye_distance * app->orbit.distance;
     if (app->rough.on && !app->live.paused)
@@ -233,6 +232,9 @@ enum status app_draw_image(struct app *app, struct error *err)
     struct render_scene scene = {0};
     struct render_view view = app_drawn_view(app);
     enum status status = make_scene(app, &scene, err);
+    if (view.stereo == RENDER_QUAD)
+        view.stereo = RENDER_PARALLEL; /* an image has no two buffers */
+    orbit_make_even(&view);
     view.order = app->film_view.order;
     view.samples = app->film_view.samples;
     view.smooth_edges = app->view.smooth_edges;

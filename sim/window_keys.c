@@ -103,7 +103,7 @@ static void view_key(struct app *app, int key, int modifiers)
         app_see_all(app);
         break;
     case 'v':
-        orbit_change_stereo(&app->orbit, &app->view);
+        app_say(app, orbit_change_stereo(&app->orbit, &app->view, window_has_quad(app->window)));
         break;
     case 's':
         app->view.style = app->view.style == RENDER_LATEX ? RENDER_PAPER : RENDER_LATEX;

@@ -32,7 +32,7 @@ static const float dark[3] = {0.02f, 0.02f, 0.025f}, light[3] = {0.75f, 0.75f, 0
 
 struct panel_box app_slider(const struct app *app, enum live_dial dial)
 {
-    const int bottom = app->view.height - MARGIN - 2 * ROW;
+    const int bottom = app_eye(app).height - MARGIN - 2 * ROW;
     return (struct panel_box){MARGIN + NAME_WIDTH,
                               bottom - (LIVE_DIALS - (int)dial) * ROW + ROW / 2 - TRACK_HEIGHT / 2,
                               TRACK_WIDTH, TRACK_HEIGHT};
@@ -40,19 +40,23 @@ struct panel_box app_slider(const struct app *app, enum live_dial dial)
 
 struct panel_box app_time_slider(const struct app *app)
 {
-    const int left = MARGIN + NAME_WIDTH, width = app_eye_width(app) - left - 2 * MARGIN;
-    return (struct panel_box){left, app->view.height - MARGIN - ROW, width > 1 ? width : 1, TRACK_HEIGHT};
+    const int left = MARGIN + NAME_WIDTH, width = app_eye(app).width - left - 2 * MARGIN;
+    return (struct panel_box){left, app_eye(app).height - MARGIN - ROW, width > 1 ? width : 1, TRACK_HEIGHT};
 }
 
+/* Beside the sliders, or above them where an eye's picture is too narrow. */
 struct panel_box app_plot(const struct app *app)
 {
-    return (struct panel_box){app_eye_width(app) - MARGIN - PLOT_WIDTH,
-                              app->view.height - 2 * MARGIN - 2 * ROW - PLOT_HEIGHT, PLOT_WIDTH, PLOT_HEIGHT};
+    const struct panel_box eye = app_eye(app);
+    const int left = eye.width - MARGIN - PLOT_WIDTH, bottom = eye.height - 2 * MARGIN - 2 * ROW;
+    const bool beside = left >= 3 * MARGIN + NAME_WIDTH + TRACK_WIDTH;
+    return (struct panel_box){left, bottom - PLOT_HEIGHT - (beside ? 0 : LIVE_DIALS * ROW), PLOT_WIDTH,
+                              PLOT_HEIGHT};
 }
 
 struct panel_box app_legend(const struct app *app)
 {
-    return (struct panel_box){app_eye_width(app) - MARGIN - LEGEND_WIDTH, 2 * MARGIN + ROW, LEGEND_WIDTH,
+    return (struct panel_box){app_eye(app).width - MARGIN - LEGEND_WIDTH, 2 * MARGIN + ROW, LEGEND_WIDTH,
                               LEGEND_HEIGHT};
 }
 
@@ -146,7 +150,7 @@ static void add_sliders(struct app *app)
     const struct panel_box first = app_slider(app, 0), time = app_time_slider(app);
     add(app, MARGIN / 2, first.y - ROW / 2, NAME_WIDTH + TRACK_WIDTH + 2 * MARGIN, LIVE_DIALS * ROW, dark,
         0.6f);
-    add(app, MARGIN / 2, time.y - ROW / 2, app_eye_width(app) - MARGIN, ROW + TRACK_HEIGHT / 2, dark, 0.72f);
+    add(app, MARGIN / 2, time.y - ROW / 2, app_eye(app).width - MARGIN, ROW + TRACK_HEIGHT / 2, dark, 0.72f);
     for (int i = 0; i < LIVE_DIALS; i++) {
         const struct panel_box track = app_slider(app, (enum live_dial)i);
         add_slider(app, &track, app_dial_part(app, (enum live_dial)i));

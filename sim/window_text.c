@@ -154,7 +154,7 @@ size_t app_texts(struct app *app, struct render_text texts[WINDOW_TEXTS_MAX])
 {
     static char storage[WINDOW_TEXTS_MAX][TEXT_SIZE];
     struct page page = {texts, storage, 0};
-    const int columns = (app_eye_width(app) - 3 * MARGIN) / LETTER_WIDTH;
+    const int columns = (app_eye(app).width - 3 * MARGIN) / LETTER_WIDTH;
     int height = 0, width;
     measure(app);
     describe_state(app, room(&page), TEXT_SIZE);

@@ -127,24 +127,96 @@ static void test_in_stereo_the_ray_starts_at_the_eye_that_owns_the_pixel(void **
     }
 }
 
-static void test_the_stereo_key_leads_from_every_layout_back_to_one_eye(void **state)
+/* The upper half is the left eye's, and each half has all that the other shows. */
+static void test_over_under_the_halves_are_divided_by_height(void **state)
 {
     (void)state;
-    for (int layout = RENDER_MONO; layout <= RENDER_CROSSED; layout++) {
-        struct orbit orbit = plain_orbit();
-        struct render_view view = {.width = 100, .height = 100, .stereo = (enum render_stereo)layout};
-        for (int presses = 0; presses < 3; presses++)
-            orbit_change_stereo(&orbit, &view);
-        assert_int_equal(view.stereo, layout);
-        assert_near(orbit.distance, 2, tolerance);
-    }
     struct orbit orbit = plain_orbit();
-    struct render_view view = {.width = 100, .height = 100, .stereo = RENDER_RED_CYAN}; /* a scene's own */
-    orbit_change_stereo(&orbit, &view);
+    struct render_view view = view_from(&orbit, 100, 200);
+    view.camera.eye_distance = 0.5;
+    view.stereo = RENDER_OVER_UNDER;
+    for (int half = 0; half < 2; half++) {
+        double origin[3], direction[3];
+        assert_true(orbit_ray(&view, 75, 100 * half + 25, origin, direction));
+        assert_vector(origin, half ? 0.25 : -0.25, 0, 2);
+        for (int i = 0; i < 3; i++)
+            assert_near(origin[i] + direction[i] * 2 / -direction[2], i < 2 ? 1 : 0, tolerance);
+    }
+}
+
+static void test_where_both_eyes_see_every_pixel_the_ray_starts_between_them(void **state)
+{
+    static const enum render_stereo mixed[] = {RENDER_RED_CYAN, RENDER_INTERLACED, RENDER_QUAD};
+    (void)state;
+    for (size_t i = 0; i < sizeof mixed / sizeof *mixed; i++) {
+        struct orbit orbit = plain_orbit();
+        struct render_view view = view_from(&orbit, 100, 100);
+        view.camera.eye_distance = 0.5;
+        view.stereo = mixed[i];
+        for (int row = 0; row < 2; row++) {
+            double origin[3], direction[3];
+            assert_true(orbit_ray(&view, 50, 50 + row, origin, direction));
+            assert_vector(origin, 0, 0, 2);
+            assert_near(direction[0], 0, tolerance);
+        }
+    }
+}
+
+/* Of an odd size the halves leave a column or row over. */
+static void test_a_place_in_one_half_is_the_same_in_the_other(void **state)
+{
+    static const struct {
+        enum render_stereo stereo;
+        int size[2], place[2];
+    } wanted[] = {{RENDER_MONO, {201, 101}, {150, 80}},       {RENDER_PARALLEL, {100, 101}, {50, 80}},
+                  {RENDER_CROSSED, {100, 101}, {50, 80}},     {RENDER_OVER_UNDER, {201, 50}, {150, 30}},
+                  {RENDER_RED_CYAN, {201, 101}, {150, 80}},   {RENDER_QUAD, {201, 101}, {150, 80}},
+                  {RENDER_INTERLACED, {201, 101}, {150, 80}}, {RENDER_LEFT, {201, 101}, {150, 80}}};
+    (void)state;
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
+        const struct render_view view = {.width = 201, .height = 101, .stereo = wanted[i].stereo};
+        int size[2], place[2] = {150, 80};
+        orbit_eye_size(&view, size);
+        orbit_eye_place(&view, place);
+        assert_memory_equal(size, wanted[i].size, sizeof size);
+        assert_memory_equal(place, wanted[i].place, sizeof place);
+    }
+}
+
+static void test_the_stereo_key_leads_through_every_layout_back_to_the_first(void **state)
+{
+    (void)state;
+    for (int quad = 0; quad < 2; quad++) {
+        const int layouts = quad ? RENDER_QUAD + 1 : RENDER_QUAD;
+        for (int first = 0; first < layouts; first++) {
+            struct orbit orbit = plain_orbit();
+            struct render_view view = {.width = 100, .height = 100, .stereo = (enum render_stereo)first};
+            for (int presses = 1; presses <= layouts; presses++) {
+                assert_non_null(orbit_change_stereo(&orbit, &view, quad));
+                assert_int_equal(view.stereo, (first + presses) % layouts);
+            }
+            assert_near(orbit.distance, 2, tolerance);
+        }
+    }
+}
+
+/* A half as wide as high where the whole was so: from twice as far. */
+static void test_narrow_halves_are_seen_from_further_away(void **state)
+{
+    (void)state;
+    struct orbit orbit = plain_orbit();
+    struct render_view view = {.width = 100, .height = 100, .stereo = RENDER_LEFT}; /* a scene's own */
+    orbit_change_stereo(&orbit, &view, false);
     assert_int_equal(view.stereo, RENDER_MONO);
-    assert_near(orbit.distance, 2, tolerance); /* each eye had the whole picture */
-    orbit_change_stereo(&orbit, &view);
-    assert_near(orbit.distance, 4, tolerance); /* half a picture for each eye: from twice as far */
+    assert_near(orbit.distance, 2, tolerance); /* it had the whole picture */
+    orbit_change_stereo(&orbit, &view, false);
+    assert_near(orbit.distance, 4, tolerance);
+    view.stereo = RENDER_CROSSED;
+    orbit_change_stereo(&orbit, &view, false); /* one over the other */
+    assert_near(orbit.distance, 2, tolerance);
+    view = (struct render_view){.width = 100, .height = 100, .squeezed = true};
+    orbit_change_stereo(&orbit, &view, false);
+    assert_near(orbit.distance, 2, tolerance); /* each has the whole's proportions */
 }
 
 static void test_number_keys_look_from_the_sides(void **state)
@@ -166,7 +238,11 @@ int main(void)
         cmocka_unit_test(test_zoom_steps_are_tenths_and_undo_each_other),
         cmocka_unit_test(test_framing_puts_the_enclosing_ball_into_the_narrower_side),
         cmocka_unit_test(test_a_ray_goes_through_its_pixel),
-        cmocka_unit_test(test_the_stereo_key_leads_from_every_layout_back_to_one_eye),
+        cmocka_unit_test(test_over_under_the_halves_are_divided_by_height),
+        cmocka_unit_test(test_where_both_eyes_see_every_pixel_the_ray_starts_between_them),
+        cmocka_unit_test(test_a_place_in_one_half_is_the_same_in_the_other),
+        cmocka_unit_test(test_the_stereo_key_leads_through_every_layout_back_to_the_first),
+        cmocka_unit_test(test_narrow_halves_are_seen_from_further_away),
         cmocka_unit_test(test_number_keys_look_from_the_sides),
         cmocka_unit_test(test_in_stereo_the_ray_starts_at_the_eye_that_owns_the_pixel),
     };
