@@ -140,10 +140,9 @@ void effects_run(struct sim *sim, enum effect_phase phase)
 enum status effects_settle(struct sim *sim, struct error *err)
 {
     enum status status = STATUS_OK;
-    for (size_t i = 0; i < sim->hook_count[EFFECT_MOVED] && !status; i++) {
-        sim->swept = false;
+    for (size_t i = 0; i < sim->hook_count[EFFECT_MOVED] && !status; i++)
         status = sim->hooks[EFFECT_MOVED][i].effect->settle(sim, err);
-    }
+    sim->swept &= !sim->changed;
     return status;
 }
 
