@@ -225,15 +225,26 @@ static bool all_flags(const void *data, size_t count)
     return all <= 1;
 }
 
-/* Bytes with a sound checksum may still be no state: flags that are no flags, a time that does not advance. */
+static bool all_finite(double (*const row)[4], size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(row[i][0]) || !isfinite(row[i][1]) || !isfinite(row[i][2]))
+            return false;
+    return true;
+}
+
+/* Bytes with a sound checksum may still be no state: flags that are no flags, a time that does not advance, points that are
+ * nowhere. */
 static bool is_state(const struct sim *sim)
 {
     const double least = 1e-9, most = 1e6; /* the range of time.step */
     return all_flags(sim->edge_active, sim->edge_count) &&
            all_flags(sim->triangle_active, sim->triangle_count) && all_flags(&sim->edges_broke, 1) &&
-           all_flags(&sim->changed, 1) && isfinite(sim->time) && sim->time >= 0 && sim->time_base >= 0 &&
-           sim->time_base <= sim->time && sim->whole_step >= least && sim->whole_step <= most &&
-           sim->substeps >= 1 && sim->substeps <= GUARD_PARTS_MAX && sim->step > 0 && sim->step <= most;
+           all_flags(&sim->changed, 1) && all_finite(sim->position, sim->point_count) &&
+           all_finite(sim->velocity, sim->point_count) && isfinite(sim->time) && sim->time >= 0 &&
+           sim->time_base >= 0 && sim->time_base <= sim->time && sim->whole_step >= least &&
+           sim->whole_step <= most && sim->substeps >= 1 && sim->substeps <= GUARD_PARTS_MAX &&
+           sim->step > 0 && sim->step <= most;
 }
 
 static enum status read_state(struct reader *reader, struct error *err)
@@ -243,7 +254,8 @@ static enum status read_state(struct reader *reader, struct error *err)
     if (!status && (!is_state(reader->sim) || !sim_restored(reader->sim)))
         return error_set(
             err, STATUS_INPUT,
-            "the chunks DATA from byte %zu on are no state: a flag or a time is out of its range", at);
+            "the chunks DATA from byte %zu on are no state: a flag, a time or a point is out of its range",
+            at);
     return status;
 }
 

@@ -12,18 +12,23 @@ static bool is_nowhere(const struct sim *sim, uint32_t p)
     return false;
 }
 
-/* The first point that is nowhere, or else the one with the most energy. */
-static uint32_t worst_point(const struct sim *sim)
+/* The first point that is nowhere, or else the one with the most energy, and its balloon. What is kept for points to come has
+ * none. */
+static uint32_t worst_point(const struct sim *sim, const struct sim_balloon **balloon)
 {
     uint32_t worst = 0;
     double most = -1;
-    for (uint32_t p = 0; p < sim->point_count; p++) {
-        if (is_nowhere(sim, p))
-            return p;
-        const double energy = sim->mass[p] * vec3_dot(sim->velocity[p], sim->velocity[p]);
-        if (energy > most) {
-            most = energy;
-            worst = p;
+    *balloon = sim->balloons;
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++) {
+        for (uint32_t p = b->point_begin; p < b->point_end; p++) {
+            const double energy = is_nowhere(sim, p)
+                                      ? INFINITY
+                                      : sim->mass[p] * vec3_dot(sim->velocity[p], sim->velocity[p]);
+            if (energy > most) {
+                most = energy;
+                worst = p;
+                *balloon = b;
+            }
         }
     }
     return worst;
@@ -51,10 +56,8 @@ static void describe_edge(const struct sim *sim, const struct sim_balloon *b, ui
 
 enum status sim_diverged(struct sim *sim, double energy, struct error *err)
 {
-    const uint32_t p = worst_point(sim);
-    const struct sim_balloon *b = sim->balloons;
-    while (p >= b->point_end)
-        b++;
+    const struct sim_balloon *b = NULL;
+    const uint32_t p = worst_point(sim, &b);
     char edge[96], advice[256] = "the step is surely stable: is a scene so violent meant?";
     describe_edge(sim, b, p, edge, sizeof edge);
     if (sim->whole_step > guard_stable_step(sim))

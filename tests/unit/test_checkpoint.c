@@ -243,6 +243,27 @@ static void what_is_sound_and_yet_no_state_is_refused(void **state)
     close_balloon(&b);
 }
 
+static void points_that_are_nowhere_are_no_state(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct balloon b;
+    open_balloon(&b, 0, SETTINGS("balloons[0].pressure=10"));
+    double *const numbers[] = {&b.sim.position[0][2], &b.sim.velocity[b.sim.point_count - 1][0]};
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        const double was = *numbers[i];
+        *numbers[i] = i ? INFINITY : NAN;
+        assert_ok(save(&b.sim, "a.ck", &err), &err);
+        assert_refused(load(&b.sim, "a.ck", &err), STATUS_INPUT, "are no state: a flag, a time or a point",
+                       &err);
+        *numbers[i] = was;
+    }
+    assert_ok(save(&b.sim, "a.ck", &err), &err);
+    assert_ok(load(&b.sim, "a.ck", &err), &err);
+    unlink("a.ck");
+    close_balloon(&b);
+}
+
 /* Hundreds of files that are synced: in memory, where the machine has room there. */
 static int enter_memory(void **state)
 {
@@ -261,6 +282,7 @@ int main(void)
         cmocka_unit_test(a_file_that_is_no_checkpoint_is_refused),
         cmocka_unit_test(damage_anywhere_is_found),
         cmocka_unit_test(what_is_sound_and_yet_no_state_is_refused),
+        cmocka_unit_test(points_that_are_nowhere_are_no_state),
     };
     return cmocka_run_group_tests(tests, enter_memory, leave_folder);
 }

@@ -198,6 +198,20 @@ static void a_run_that_diverges_names_point_time_and_the_likely_cause(void **sta
     close_balloon(&b);
 }
 
+/* A skin that tears has room behind its points for those to come: whatever is there, a point is named that is one. */
+static void a_point_yet_to_come_is_not_what_diverged(void **state)
+{
+    (void)state;
+    struct balloon b;
+    struct error err = {0};
+    open_balloon(&b, 1, SETTINGS("balloons[0].membrane.thickness=0.01", "balloons[0].fracture.strength=1.1"));
+    assert_true(b.sim.balloons[0].point_end < b.sim.point_count);
+    b.sim.velocity[b.sim.balloons[0].point_end][0] = INFINITY;
+    b.sim.velocity[3][0] = 1;
+    assert_refused(sim_diverged(&b.sim, INFINITY, &err), STATUS_DIVERGED, "point 3 of balloons[0]", &err);
+    close_balloon(&b);
+}
+
 static void stretched_skin_is_clearer_and_shinier(void **state)
 {
     (void)state;
@@ -243,6 +257,7 @@ int main(void)
         cmocka_unit_test(several_balloons_move_as_each_would_alone),
         cmocka_unit_test(an_effect_that_is_off_has_no_hook),
         cmocka_unit_test(a_run_that_diverges_names_point_time_and_the_likely_cause),
+        cmocka_unit_test(a_point_yet_to_come_is_not_what_diverged),
         cmocka_unit_test(stretched_skin_is_clearer_and_shinier),
         cmocka_unit_test(the_scenes_integrators_are_the_simulators),
     };
