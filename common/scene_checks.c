@@ -18,10 +18,10 @@ enum status scene_contradiction(const struct scene *scene, size_t number, const 
     return error_set(err, STATUS_INPUT, "%s%s: balloons[%zu].%s: %s", scene->path, place, number, name, text);
 }
 
-static bool changes_pressure(const struct scene_schedule *entry, size_t number)
+static bool changes(const struct scene_schedule *entry, const char *key, size_t number)
 {
     for (size_t i = 0; i < entry->change_count; i++)
-        if (!strcmp(entry->change[i].field->key, "pressure"))
+        if (!strcmp(entry->change[i].field->key, key))
             return entry->balloon < 0 || (size_t)entry->balloon == number;
     return false;
 }
@@ -39,11 +39,34 @@ static enum status check_gas(const struct scene *scene, size_t number, struct er
                                    "out one of the two",
                                    b->pressure);
     for (size_t i = 0; i < scene->schedule_count; i++)
-        if (changes_pressure(&scene->schedule[i], number))
+        if (changes(&scene->schedule[i], "pressure", number))
             return scene_contradiction(scene, number, "gas", line, err,
                                        "the gas makes the pressure, which schedule[%zu] cannot change; "
-                                       "use pump, leak or neck",
+                                       "let it change pump",
                                        i);
+    return STATUS_OK;
+}
+
+static bool has_gas(const struct scene *scene)
+{
+    for (size_t i = 0; i < scene->balloon_count; i++)
+        if (scene->balloons[i].gas.on)
+            return true;
+    return false;
+}
+
+/* What turns all pumps passes over balloons that have none, if any has. */
+static enum status check_no_gas(const struct scene *scene, size_t number, struct error *err)
+{
+    for (size_t i = 0; i < scene->schedule_count; i++) {
+        const struct scene_schedule *entry = &scene->schedule[i];
+        if ((changes(entry, "pump", number) || changes(entry, "pump_until", number)) &&
+            (entry->balloon >= 0 || !has_gas(scene)))
+            return scene_contradiction(scene, number, "gas", 0, err,
+                                       "schedule[%zu] turns its pump, but there is no gas; give "
+                                       "gas = { ambient = ... }",
+                                       i);
+    }
     return STATUS_OK;
 }
 
@@ -76,7 +99,7 @@ static enum status check_tube(const struct scene *scene, size_t number, struct e
 enum status scene_check_gas(const struct scene *scene, size_t number, struct error *err)
 {
     const struct scene_balloon *b = &scene->balloons[number];
-    enum status status = b->gas.on ? check_gas(scene, number, err) : STATUS_OK;
+    enum status status = b->gas.on ? check_gas(scene, number, err) : check_no_gas(scene, number, err);
     return status || !b->tube.on ? status : check_tube(scene, number, err);
 }
 

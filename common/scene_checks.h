@@ -9,7 +9,7 @@ enum status scene_contradiction(const struct scene *scene, size_t number, const 
                                 struct error *err, const char *format, ...)
     __attribute__((format(printf, 6, 7)));
 
-/* Gas and tube of one balloon: what is missing, what cannot be had together, a tube to nowhere. */
+/* Gas and tube of one balloon: what is missing, what cannot be had together, a pump without gas, a tube to nowhere. */
 enum status scene_check_gas(const struct scene *scene, size_t number, struct error *err);
 
 /* Directions of pins, string and neck that are none; a weight that nothing pulls. */

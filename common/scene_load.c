@@ -121,14 +121,22 @@ static void note_pressure(const struct scene_block *block, void *target, const c
         ((struct scene_balloon *)target)->pressure_given = true;
 }
 
-/* A key that changes at a time: the step, or a LIVE key of the balloons. */
+/* Where a key is looked for that changes at a time. */
+static const struct scene_field *find_live(const char *key)
+{
+    static const char *const blocks[][2] = {{"", "time"}, {"", "balloons"}, {"balloons", "gas"}};
+    const struct scene_field *field = NULL;
+    for (size_t i = 0; i < sizeof blocks / sizeof *blocks && !field; i++)
+        field = scene_find_field(scene_find_block(blocks[i][0], blocks[i][1]), key);
+    return field;
+}
+
+/* A key that changes at a time: the step, or a LIVE key of the balloons or of their gas. */
 static enum status read_change(const config_setting_t *value, const char *key,
                                const struct scene_source *source, struct scene_schedule *entry,
                                struct error *err)
 {
-    const struct scene_field *field = scene_find_field(scene_find_block("", "time"), key);
-    if (!field)
-        field = scene_find_field(scene_find_block("", "balloons"), key);
+    const struct scene_field *field = find_live(key);
     if (!field)
         return scene_refuse_name(source, value, key, scene_find_block("", "schedule"), err);
     if (!(field->flags & SCENE_LIVE))

@@ -128,19 +128,30 @@ void gas_stream(struct sim *sim, const struct sim_balloon *balloon, double rate,
                                     (warmth / (gas->pressure * gas->volume) - 1 / gas_amount(sim, gas));
 }
 
-/* By pump and through the skin. Near its goal the pump slows down, so that it is not overshot. */
+/* What the pump brings a second, or, below 0, draws out. Near its goal, and as the pressure nears the air's, it slows down, so that neither is
+ * overshot. */
+static double pumped(const struct sim *sim, const struct sim_balloon *b, const struct gas_drive *in)
+{
+    const struct gas *gas = b->gas;
+    const double rate = b->now->pump * gas->filling,
+                 missing = b->now->pump_until * gas->filling - gas_amount(sim, gas);
+    if (gas->memory.neck_open)
+        return 0;
+    if (rate < 0)
+        return -fmin(-rate, in->to_even * fmax(in->pressure - gas->scene->ambient, 0));
+    return fmax(0, fmin(rate, missing / sim->step));
+}
+
+/* By pump and through the skin. */
 static void pump_and_leak(struct sim *sim, const struct sim_balloon *b)
 {
     const struct gas *gas = b->gas;
     const struct gas_drive in = gas_drive(sim, b);
-    const double gauge = in.pressure - gas->scene->ambient,
-                 missing = gas->scene->pump_until * gas->filling - gas_amount(sim, gas);
-    const double rate = gas->memory.neck_open ? 0 : gas->scene->pump * gas->filling;
-    const double pumped = fmax(0, fmin(rate, missing / sim->step));
+    const double gauge = in.pressure - gas->scene->ambient, brought = pumped(sim, b, &in);
     const double leaked = fmin(gas->scene->leak * gas->scene->ambient, in.to_even) * gauge;
-    gas_stream(sim, b, pumped, 1);
+    gas_stream(sim, b, brought, 1);
     gas_stream(sim, b, -leaked, 1);
-    sim->scalar_rate[gas->scalar + GAS_BROUGHT] += pumped - leaked;
+    sim->scalar_rate[gas->scalar + GAS_BROUGHT] += brought - leaked;
 }
 
 /* At the point x: p - pa + (r - ra) g . x - r g . x0 + ra g . c, with the densities r and ra of gas and air, g gravity, x0 the first point,

@@ -66,21 +66,29 @@ static double needed(struct sim *sim, const struct sim_balloon *b, double *stret
     return INFINITY;
 }
 
-/* The largest that the scene ever gives. */
-static double given(const struct sim *sim, const struct sim_balloon *b)
+/* The largest that a key of a balloon ever is. */
+static double largest(const struct sim *sim, const struct sim_balloon *b, const char *key, double first)
 {
     const struct scene *scene = sim->scene;
-    if (b->gas)
-        return fmax(b->scene->gas.fill, b->scene->gas.pump > 0 ? b->scene->gas.pump_until : 0);
-    double most = b->scene->pressure;
+    double most = first;
     for (size_t i = 0; i < scene->schedule_count; i++) {
         const struct scene_schedule *entry = &scene->schedule[i];
         for (size_t k = 0; k < entry->change_count; k++)
             if ((entry->balloon < 0 || sim->balloons + entry->balloon == b) &&
-                !strcmp(entry->change[k].field->key, "pressure"))
+                !strcmp(entry->change[k].field->key, key))
                 most = fmax(most, entry->change[k].value);
     }
     return most;
+}
+
+/* The largest that the scene ever gives. */
+static double given(const struct sim *sim, const struct sim_balloon *b)
+{
+    const struct scene_gas *gas = &b->scene->gas;
+    if (!b->gas)
+        return largest(sim, b, "pressure", b->scene->pressure);
+    const bool pumps = largest(sim, b, "pump", gas->pump) > 0;
+    return fmax(gas->fill, pumps ? largest(sim, b, "pump_until", gas->pump_until) : 0);
 }
 
 void explain_bursts(struct sim *sim, FILE *stream)

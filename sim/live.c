@@ -7,9 +7,6 @@
 #include <string.h>
 #include <time.h>
 
-const char *const live_dial_names[LIVE_DIALS] = {
-    [LIVE_PRESSURE] = "pressure", [LIVE_STEP] = "step", [LIVE_SPRINGS] = "springs", [LIVE_PACE] = "speed"};
-
 /* A minute of the film, frame by frame; speeds are counted over this long. */
 static const double past_seconds = 60, window_seconds = 0.5;
 
@@ -131,10 +128,32 @@ enum status live_run(struct live *live, double seconds, double budget, struct er
     return status;
 }
 
+bool live_pumps(const struct live *live)
+{
+    return live->sim->balloons->gas;
+}
+
+const char *live_name(const struct live *live, enum live_dial dial)
+{
+    static const char *const names[LIVE_DIALS] = {[LIVE_PRESSURE] = "pressure",
+                                                  [LIVE_STEP] = "step",
+                                                  [LIVE_SPRINGS] = "springs",
+                                                  [LIVE_PACE] = "speed"};
+    return dial == LIVE_PRESSURE && live_pumps(live) ? "pump" : names[dial];
+}
+
+const char *live_unit(const struct live *live, enum live_dial dial)
+{
+    static const char *const units[LIVE_DIALS] = {
+        [LIVE_PRESSURE] = "", [LIVE_STEP] = " s", [LIVE_SPRINGS] = "", [LIVE_PACE] = " x"};
+    return dial == LIVE_PRESSURE && live_pumps(live) ? "/s" : units[dial];
+}
+
 double live_value(const struct live *live, enum live_dial dial)
 {
     const struct sim_settings *settings = live->sim->settings;
-    const double values[LIVE_DIALS] = {[LIVE_PRESSURE] = settings->pressure,
+    const double values[LIVE_DIALS] = {[LIVE_PRESSURE] = live_pumps(live) ? settings->pump
+                                                                          : settings->pressure,
                                        [LIVE_STEP] = live->sim->whole_step,
                                        [LIVE_SPRINGS] = settings->spring_factor,
                                        [LIVE_PACE] = live->pace};
@@ -143,17 +162,26 @@ double live_value(const struct live *live, enum live_dial dial)
 
 void live_turn(struct live *live, enum live_dial dial, double value)
 {
-    static const char *const keys[LIVE_DIALS][2] = {[LIVE_PRESSURE] = {"balloons", "pressure"},
-                                                    [LIVE_STEP] = {"time", "step"},
-                                                    [LIVE_SPRINGS] = {"balloons", "spring_factor"}};
+    static const char *const keys[LIVE_DIALS][3] = {[LIVE_PRESSURE] = {"", "balloons", "pressure"},
+                                                    [LIVE_STEP] = {"", "time", "step"},
+                                                    [LIVE_SPRINGS] = {"", "balloons", "spring_factor"}},
+                             *const pump[] = {"balloons", "gas", "pump"};
+    const bool pumps = dial == LIVE_PRESSURE && live_pumps(live);
+    const char *const *key = pumps ? pump : keys[dial];
     if (dial == LIVE_PACE) {
         live->pace = fmin(fmax(value, 1e-6), 1e6);
         return;
     }
-    const struct scene_field *field = scene_find_field(scene_find_block("", keys[dial][0]), keys[dial][1]);
+    const struct scene_block *block = scene_find_block(key[0], key[1]);
+    const struct scene_field *field = scene_find_field(block, key[2]);
     struct scene_schedule change = {.balloon = -1, .change_count = 1};
     change.change[0].field = field;
     change.change[0].value = fmin(fmax(value, field->least), field->most);
+    if (pumps) {
+        change.change[1].field = scene_find_field(block, "pump_until");
+        change.change[1].value = change.change[1].field->most;
+        change.change_count = 2;
+    }
     go_on_from_here(live);
     sim_change(live->sim, &change);
 }

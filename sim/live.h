@@ -16,9 +16,8 @@
 #include "sim/live_hand.h"
 #include "sim/live_past.h"
 
-/* What can be turned. */
+/* What can be turned. Where gas makes the pressure its dial turns the pump. */
 enum live_dial { LIVE_PRESSURE, LIVE_STEP, LIVE_SPRINGS, LIVE_PACE, LIVE_DIALS };
-extern const char *const live_dial_names[LIVE_DIALS];
 
 struct live {
     struct sim *sim;
@@ -52,7 +51,15 @@ enum status live_run(struct live *live, double seconds, double budget, struct er
 /* One step, also while paused. Errors as above. */
 enum status live_step(struct live *live, struct error *err);
 
-/* A dial's value, of the first balloon; sets it, for all, limited to the scene's range. The pace is 1e-6 to 1e6. */
+/* Whether the first dial is the pump: the first balloon has gas. Below 0 it lets gas out. */
+bool live_pumps(const struct live *live);
+
+/* A dial's name, and the unit of its value to be written behind it. */
+const char *live_name(const struct live *live, enum live_dial dial);
+const char *live_unit(const struct live *live, enum live_dial dial);
+
+/* A dial's value, of the first balloon; sets it, for all, limited to the scene's range. The pace is 1e-6 to 1e6. A pump that is turned by hand
+ * goes on past the scene's pump_until. */
 double live_value(const struct live *live, enum live_dial dial);
 void live_turn(struct live *live, enum live_dial dial, double value);
 

@@ -183,6 +183,8 @@ static enum status fill_balloon(struct sim *sim, struct sim_balloon *b, const st
                                         b->scene->damping,
                                         b->scene->pressure,
                                         b->scene->threshold * (b->own_thresholds ? 1 : b->mean_rest_length),
+                                        b->scene->gas.pump,
+                                        b->scene->gas.pump_until,
                                         0,
                                         {0}};
     }

@@ -27,6 +27,10 @@ static void change_balloon(struct sim *sim, struct sim_balloon *balloon, const c
         balloon->now->threshold_length = value * (balloon->own_thresholds ? 1 : balloon->mean_rest_length);
     } else if (!strcmp(key, "spring_factor")) {
         change_springs(sim, balloon, value);
+    } else if (!strcmp(key, "pump")) {
+        balloon->now->pump = value;
+    } else if (!strcmp(key, "pump_until")) {
+        balloon->now->pump_until = value;
     }
 }
 

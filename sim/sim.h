@@ -86,6 +86,7 @@ struct sim_balloon {
 struct sim_settings {
     double spring_factor, damping, pressure; /* as the schedule has them now */
     double threshold_length;                 /* at which an edge lets go */
+    double pump, pump_until;                 /* likewise, where there is gas */
     uint64_t ripped;                         /* 1: the scene's rip has opened */
     double membrane_range[2];                /* what the guard takes its stiffness for (membrane.h) */
 };

@@ -7,7 +7,7 @@ const char app_help[] = "left       prick, drag: pull     middle, alt+left  turn
                         "right      pan (shift+middle)    wheel      zoom\n"
                         "\n"
                         "space  pause, go on              .  one step\n"
-                        "up down  pressure                [ ]  time step\n"
+                        "up down  pressure, pump          [ ]  time step\n"
                         "- +  spring constants            < >  speed of time\n"
                         "left right  a frame back, on     page up, down  a second\n"
                         "r  from the start\n"

@@ -24,8 +24,9 @@ enum {
     BOXES_MAX = 8192,
 };
 
-/* A slider of pressure ends at this many times the scene's; the others go from a tenth to ten times theirs. */
-static const double pressure_most = 2.5, other_pressure_most = 25;
+/* A slider of pressure ends at this many times the scene's, and where that is 0 at the other; that of a pump has 0, and gas that is let out, in its
+ * middle and before. The others go from a tenth to ten times theirs. */
+static const double pressure_most = 2.5, other_pressure_most = 25, other_pump_most = 1;
 
 static const float dark[3] = {0.02f, 0.02f, 0.025f}, light[3] = {0.75f, 0.75f, 0.72f},
                    yellow[3] = {0.9f, 0.6f, 0.05f}, blue[3] = {0.15f, 0.35f, 0.9f};
@@ -60,22 +61,35 @@ struct panel_box app_legend(const struct app *app)
                               LEGEND_HEIGHT};
 }
 
+/* The ends of the pressure's or the pump's slider. */
+static void pressure_range(const struct app *app, double range[2])
+{
+    const bool pumps = live_pumps(&app->live);
+    const double most = pressure_most * fabs(app->live.standard[LIVE_PRESSURE]);
+    range[1] = most > 0 ? most : pumps ? other_pump_most : other_pressure_most;
+    range[0] = pumps ? -range[1] : 0;
+}
+
 static double standard_of(const struct app *app, enum live_dial dial)
 {
-    const double standard = app->live.standard[dial];
-    return standard > 0 ? standard : dial == LIVE_PRESSURE ? other_pressure_most / pressure_most : 1;
+    return app->live.standard[dial] > 0 ? app->live.standard[dial] : 1;
 }
 
 double app_dial_value(const struct app *app, enum live_dial dial, double part)
 {
-    const double standard = standard_of(app, dial);
-    return dial == LIVE_PRESSURE ? part * pressure_most * standard : standard * pow(10, 2 * part - 1);
+    double range[2];
+    pressure_range(app, range);
+    return dial == LIVE_PRESSURE ? range[0] + part * (range[1] - range[0])
+                                 : standard_of(app, dial) * pow(10, 2 * part - 1);
 }
 
 double app_dial_part(const struct app *app, enum live_dial dial)
 {
-    const double ratio = live_value(&app->live, dial) / standard_of(app, dial);
-    return dial == LIVE_PRESSURE ? ratio / pressure_most : (log10(fmax(ratio, 1e-12)) + 1) / 2;
+    const double value = live_value(&app->live, dial);
+    double range[2];
+    pressure_range(app, range);
+    return dial == LIVE_PRESSURE ? (value - range[0]) / (range[1] - range[0])
+                                 : (log10(fmax(value / standard_of(app, dial), 1e-12)) + 1) / 2;
 }
 
 /* How far along x is, from 0 to 1. */

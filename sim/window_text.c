@@ -111,8 +111,9 @@ static void add_sliders(const struct app *app, struct page *page)
 {
     for (int i = 0; i < LIVE_DIALS; i++) {
         const struct panel_box track = app_slider(app, (enum live_dial)i);
-        snprintf(room(page), TEXT_SIZE, "%-8s %.4g", live_dial_names[i],
-                 live_value(&app->live, (enum live_dial)i));
+        const enum live_dial dial = (enum live_dial)i;
+        snprintf(room(page), TEXT_SIZE, "%-8s %.4g%s", live_name(&app->live, dial),
+                 live_value(&app->live, dial), live_unit(&app->live, dial));
         add(page, MARGIN, track.y + track.height / 2 - LETTER_HEIGHT / 2, 1, white, false);
     }
     const struct panel_box time = app_time_slider(app);

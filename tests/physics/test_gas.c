@@ -111,6 +111,42 @@ static void a_pump_stops_where_it_should(void **state)
     close_balloon(&b);
 }
 
+/* Drawn out at 1.5 of a fill a second, 2 become 1.85 in a tenth; in a vessel that gives way to nothing it ends at the air's pressure, which the rest
+ * nears by a half in each step. */
+static void a_pump_that_is_turned_round_draws_gas_out_down_to_the_airs_pressure(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 2,
+                 GAS("balloons[0].gas.fill=2", "balloons[0].gas.pump=-1.5", "balloons[0].point_mass=1e9"));
+    const double full = look(&b).amount / 2;
+    steps(&b, 20);
+    assert_near(look(&b).amount, 1.85 * full, 1e-12 * full);
+    assert_near(look(&b).brought, -0.15 * full, 1e-12 * full);
+    steps(&b, 300);
+    /* A force of some 20 x 150 moves 1e9 in 1.6 s by 4e-6, the volume by 3 x that/45, and 10 of pressure by as much of itself. */
+    assert_near(look(&b).gauge_pressure, 0, 3e-6);
+    close_balloon(&b);
+}
+
+/* As the user turns it, between two steps. */
+static void the_schedule_turns_the_pump(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 2,
+                 GAS("schedule[0].at=0.05", "schedule[0].pump=2", "schedule[1].at=0.1",
+                     "schedule[1].pump_until=1.05"));
+    const double full = look(&b).amount;
+    steps(&b, 10);
+    assert_near(look(&b).amount, full, 1e-12 * full);
+    steps(&b, 10);
+    assert_near(look(&b).amount, 1.1 * full, 1e-12 * full);
+    steps(&b, 10);
+    assert_near(look(&b).amount, 1.1 * full, 1e-12 * full);
+    close_balloon(&b);
+}
+
 /* The textbook's numbers for air: the flow into nothing is choked, with p sqrt(gamma/(r p)) (2/2.4)^3 of flux; just above the ratio .52828 it no
  * longer is; and gentle flow is Bernoulli's, sqrt(2 r dp), to the share of dp/p in compression (3/4 gamma of it, Shapiro). */
 static void openings_let_out_what_shapiro_says(void **state)
@@ -315,6 +351,8 @@ int main(void)
         cmocka_unit_test(its_push_is_the_derivative_of_its_energy),
         cmocka_unit_test(a_slow_leak_decays_exponentially),
         cmocka_unit_test(a_pump_stops_where_it_should),
+        cmocka_unit_test(a_pump_that_is_turned_round_draws_gas_out_down_to_the_airs_pressure),
+        cmocka_unit_test(the_schedule_turns_the_pump),
         cmocka_unit_test(openings_let_out_what_shapiro_says),
         cmocka_unit_test(an_open_neck_makes_it_fly),
         cmocka_unit_test(a_choked_neck_empties_exponentially),

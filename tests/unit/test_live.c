@@ -1,6 +1,7 @@
 /* The simulation under the hand: the clock, the dials, the past, what pricks and pulls. */
 #include "balloon.h"
 #include "common/vec3.h"
+#include "sim/effect_gas.h"
 #include "sim/ledger.h"
 #include "sim/live.h"
 
@@ -108,6 +109,29 @@ static void dials_turn_between_steps_within_the_scenes_range(void **state)
     assert_near(live_value(&live, LIVE_STEP), 1e-9, 0);
     live_turn(&live, LIVE_SPRINGS, 1e99);
     assert_near(live_value(&live, LIVE_SPRINGS), 1e6, 0);
+    close_live(&b);
+}
+
+/* Where gas makes the pressure: past what the scene would pump, and back with the past. */
+static void the_first_dial_turns_the_pump_where_there_is_gas(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_live(&b,
+              SETTINGS("balloons[0].gas.ambient=0.01", "balloons[0].gas.pump=1",
+                       "balloons[0].gas.pump_until=1", "time.integrator=symplectic-euler", "view.rate=40"),
+              MEMORY);
+    const double first = gas_look(&b.sim, b.sim.balloons).amount;
+    assert_string_equal(live_name(&live, LIVE_PRESSURE), "pump");
+    assert_near(live_value(&live, LIVE_PRESSURE), 1, 0);
+    live_steps(1);
+    live_turn(&live, LIVE_PRESSURE, 2);
+    live_steps(1);
+    assert_near(gas_look(&b.sim, b.sim.balloons).amount, 1.05 * first, 1e-12 * first);
+    live_show(&live, 1);
+    assert_near(live_value(&live, LIVE_PRESSURE), 1, 0);
+    live_steps(1);
+    assert_near(gas_look(&b.sim, b.sim.balloons).amount, first, 1e-12 * first);
     close_live(&b);
 }
 
@@ -321,6 +345,7 @@ int main(void)
         cmocka_unit_test(paused_it_takes_single_steps_only),
         cmocka_unit_test(slow_motion_runs_at_the_films_pace),
         cmocka_unit_test(dials_turn_between_steps_within_the_scenes_range),
+        cmocka_unit_test(the_first_dial_turns_the_pump_where_there_is_gas),
         cmocka_unit_test(a_frame_of_the_past_is_followed_by_the_same_future),
         cmocka_unit_test(the_past_keeps_its_start_and_its_end_within_its_memory),
         cmocka_unit_test(the_past_is_a_minute_of_film),

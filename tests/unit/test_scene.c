@@ -111,6 +111,8 @@ static void what_is_wrong_is_named_with_its_line(void **state)
          "two different directions"},
         {"balloons = ( { mesh = \"a.ply\"; } );\nschedule = ( { at = 1; spring = 2; } );",
          ":2: spring cannot change"},
+        {"balloons = ( { mesh = \"a.ply\"; } );\nschedule = ( { at = 1; pump = 1; } );",
+         "schedule[0] turns its pump, but there is no gas"},
         {"balloons = ( { mesh = \"a.ply\"; } );\nschedule = ( { at = 1; balloon = 1; } );",
          "the balloons are 0 to 0"},
         {"time = { step = nan; };", ":1: syntax error"},

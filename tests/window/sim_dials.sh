@@ -12,7 +12,7 @@ log_has "the step was not taken" 'near(at(-1, "time") - at(-2, "time"), 0.025 * 
 
 open_live
 pause
-press Down bracketleft minus
+press period Down bracketleft minus # springs at rest would hold nothing
 settle
 picture dials-by-key
 press plus plus
@@ -47,3 +47,34 @@ drag 1 197 552 132 552
 sleep 1
 quit
 log_has "speed by slider" 'at(-1, "time") < 1.2'
+
+# Where gas makes the pressure the first dial is the pump, 0 in the middle of its slider: at constant temperature (p + ambient) V is the amount.
+open_gas() # ARGUMENT...
+{
+    open_live --set 'balloons[0].pressure=0' --set 'balloons[0].gas.ambient=0.01' --set 'time.guard=substep' "$@"
+}
+amount_is() # MESSAGE AMOUNT: over the first
+{
+    log_has "$1" "near((at(-1, \"gauge_pressure\") + 0.01) * at(-1, \"volume\"), $2 * 0.01 * at(1, \"volume\"))"
+}
+open_gas
+pause
+click 262 504 # one of what it began with, a second
+picture pump
+press period period
+quit
+amount_is "pump by slider" 1.05
+
+open_gas --set 'balloons[0].gas.pump=2' --set 'balloons[0].gas.pump_until=1'
+pause
+press Down period Left period # a fiftieth of the whole slider, 10 a second, less; the past has the scene's pump
+press Up period # past what the scene would pump
+quit
+amount_is "pump by key" 1.055
+
+open_gas --set 'balloons[0].gas.fill=2'
+pause
+click 132 504
+press period period
+quit
+amount_is "gas is let out" 1.95
