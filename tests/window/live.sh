@@ -2,19 +2,19 @@
 . "$CASES/lib.sh"
 PATH=$SIM:$PATH
 
-# An octahedron, each face split into 16 and blown up to a sphere: 128 triangles.
-awk 'function point(x, y, z,  r, key) {
+# An octahedron, each side split into SPLIT, or 4, and blown up to a sphere: 128 triangles.
+awk -v n="${SPLIT:-4}" 'function point(x, y, z,  r, key) {
          r = sqrt(x * x + y * y + z * z); key = x " " y " " z
          if (!(key in number)) { number[key] = points++; place = place sprintf("%.9f %.9f %.9f\n", x / r, y / r, z / r) }
          return number[key]
      }
-     function corner(i, j,  k) { k = 4 - i - j; return point(sx * i, sy * j, sz * k) }
+     function corner(i, j,  k) { k = n - i - j; return point(sx * i, sy * j, sz * k) }
      function triangle(a, b, c) { faces++; list = list (sx * sy * sz > 0 ? "3 " a " " b " " c : "3 " a " " c " " b) "\n" }
      BEGIN {
          for (sx = -1; sx <= 1; sx += 2) for (sy = -1; sy <= 1; sy += 2) for (sz = -1; sz <= 1; sz += 2)
-             for (i = 0; i < 4; i++) for (j = 0; i + j < 4; j++) {
+             for (i = 0; i < n; i++) for (j = 0; i + j < n; j++) {
                  triangle(corner(i, j), corner(i + 1, j), corner(i, j + 1))
-                 if (i + j < 3) triangle(corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1))
+                 if (i + j < n - 1) triangle(corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1))
              }
          printf "ply\nformat ascii 1.0\nelement vertex %d\nproperty double x\nproperty double y\nproperty double z\n", points
          printf "element face %d\nproperty list uchar int vertex_indices\nend_header\n%s%s", faces, place, list
