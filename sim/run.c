@@ -189,8 +189,9 @@ static void print_summary(struct run *run)
     uint32_t edges = 0;
     for (size_t i = 0; i < sim->balloon_count; i++)
         edges += sim->balloons[i].edge_end - sim->balloons[i].edge_begin;
-    printf("%g s in %" PRIu64 " steps: %u of %u edges and %u of %u triangles are left, in %u pieces; ",
-           sim->time, sim->steps, m.edges_active, edges, m.triangles_active, sim->triangle_count, m.pieces);
+    printf("%g s in %" PRIu64 " steps: %u of %u edges and %u of %u triangles are left, in %u piece%s; ",
+           sim->time, sim->steps, m.edges_active, edges, m.triangles_active, sim->triangle_count, m.pieces,
+           m.pieces == 1 ? "" : "s");
     if (run->first_break < 0)
         printf("nothing broke\n");
     else

@@ -240,8 +240,8 @@ static enum status report(struct mesh *mesh, const struct arguments *arguments, 
     if (stats->cube_size > detail)
         command_note(
             "cubes of %.4g are larger than the sculpture's detail, %.4g: what is thinner may be lost; "
-            "take more triangles, or smooth it: --sigma 1.2 --threshold 0.2",
-            stats->cube_size, detail);
+            "take more triangles, or smooth it more: --sigma %.2g",
+            stats->cube_size, detail, ceil(10 * stats->cube_size / finest_cell / 2) / 10);
     double wanted = arguments->options.triangles;
     if (wanted > 0 && fabs(mesh->triangle_count / wanted - 1) > 0.05)
         command_note("%u triangles: at no cube size tried were there %.0f; their number goes in steps",
