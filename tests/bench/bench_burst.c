@@ -1,18 +1,6 @@
 /* The whole program: balloon-sim on the paper's sphere, by what it is asked to write. The paper's machine took about
  * one second a frame: 400 s. bench_burst BALLOON-SIM SCENE */
-#include "support/bench.h"
-
-#include <fcntl.h>
-#include <ftw.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-static int remove_entry(const char *path, const struct stat *info, int type, struct FTW *where)
-{
-    (void)info, (void)type, (void)where;
-    return remove(path);
-}
+#include "support/bench_program.h"
 
 /* Runs the program with these arguments in a folder of its own; one row of the table. */
 static void run(const char *name, char *const *arguments)
@@ -20,27 +8,11 @@ static void run(const char *name, char *const *arguments)
     char folder[] = "/tmp/balloon-bench-XXXXXX";
     if (!mkdtemp(folder))
         exit(1);
-    struct rusage usage;
-    int status = 0;
-    const double began = bench_seconds();
-    pid_t child = fork();
-    if (child == 0) {
-        int nowhere = open("/dev/null", O_WRONLY);
-        dup2(nowhere, STDOUT_FILENO);
-        if (chdir(folder) || execv(arguments[0], arguments))
-            _exit(127);
-    }
-    if (child < 0 || wait4(child, &status, 0, &usage) != child)
-        exit(1);
-    const double spent = bench_seconds() - began;
-    const double cpu = (double)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-                       1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
-    printf("%-40s  %4d  %7.2f  %7.2f  %9.1f  %6.1f\n", name, WEXITSTATUS(status), spent, cpu,
-           (double)usage.ru_maxrss / 1024, 400 / spent);
+    const struct bench_run r = bench_run(folder, arguments);
+    printf("%-40s  %7.2f  %7.2f  %9.1f  %6.1f\n", name, r.seconds, r.cpu_seconds, r.peak_bytes / 1048576,
+           400 / r.seconds);
     fflush(stdout);
-    nftw(folder, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-        exit(1);
+    bench_remove_folder(folder);
 }
 
 int main(int argc, char **argv)
@@ -48,7 +20,7 @@ int main(int argc, char **argv)
     char *program = argc == 3 ? realpath(argv[1], NULL) : NULL;
     if (!program)
         return 2;
-    printf("400 stereo frames of 1280 x 480            exit     wall      cpu    peak MB  frames/s\n");
+    printf("400 stereo frames of 1280 x 480              wall      cpu    peak MB  frames/s\n");
     run("simulated", (char *[]){program, "-q", argv[2], NULL});
     run("simulated, log", (char *[]){program, "-q", argv[2], "--log", "log.tsv", NULL});
     run("simulated, drawn, PNGs", (char *[]){program, "-q", argv[2], "--frames", "frames", NULL});
