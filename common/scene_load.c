@@ -4,6 +4,7 @@
 #include "common/scene.h"
 #include "common/scene_value.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -145,10 +146,7 @@ static enum status read_change(const config_setting_t *value, const char *key,
     size_t i = 0;
     while (i < entry->change_count && entry->change[i].field != field)
         i++;
-    if (i == SCENE_CHANGES_MAX)
-        return scene_refuse(source, value, err,
-                            "at most %d keys in one entry; begin another with the same `at`",
-                            SCENE_CHANGES_MAX);
+    assert(i < SCENE_CHANGES_MAX); /* no more keys than that may change */
     enum status status = scene_read_number(field, value, source, &entry->change[i].value, err);
     if (!status) {
         entry->change[i].field = field;

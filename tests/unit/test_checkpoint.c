@@ -5,6 +5,7 @@
 #include "folder.h"
 #include "sim/checkpoint.h"
 #include "sim/ledger.h"
+#include "sim/log.h"
 
 static enum status save(struct sim *sim, const char *path, struct error *err)
 {
@@ -243,6 +244,54 @@ static void what_is_sound_and_yet_no_state_is_refused(void **state)
     close_balloon(&b);
 }
 
+/* Writes a.ck anew with the chunk whose bytes begin with `block` behind its head changed: its name, or its size (the rest of the
+ * file follows), with the checksum that it then must have. */
+static void change_chunk(const char *block, const char *name, size_t shorter)
+{
+    struct error err = {0};
+    struct bytes file = {0};
+    assert_ok(file_read("a.ck", &file, &err), &err);
+    unsigned char *head = memmem(file.data, file.size, block, strlen(block));
+    assert_non_null(head);
+    uint64_t size;
+    memcpy(&size, head + 4, sizeof size);
+    unsigned char *end = head + 12 + size, *new_end = end - shorter;
+    size -= shorter;
+    memcpy(head, name, 4);
+    memcpy(head + 4, &size, sizeof size);
+    const uint32_t crc = crc32_bytes(0, head, 12 + size);
+    memmove(new_end + 4, end + 4, (size_t)(file.data + file.size - end - 4));
+    memcpy(new_end, &crc, sizeof crc);
+    write_bytes("a.ck", file.data, file.size - shorter);
+    bytes_clear(&file);
+}
+
+static void chunks_that_are_others_than_they_must_be_are_named(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *block, *name;
+        size_t shorter;
+        const char *message;
+    } cases[] = {
+        {"KEYS", "KEYZ", 0, "chunk KEYZ at byte 40: here chunk KEYS must be"},
+        {"HEAD", "HEAD", 4, "chunk HEAD at byte 8: was written by a machine with another order of bytes"},
+        {"RUN ", "RUN ", 8, ": has another size than it must have"},
+        {"ROWS", "ROWZ", 0, "here chunk ROWS must be"},
+        {"END ", "END?", 0, "here chunk END  must be"},
+    };
+    struct error err = {0};
+    struct balloon b;
+    open_balloon(&b, 0, SETTINGS("balloons[0].pressure=10"));
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        assert_ok(save(&b.sim, "a.ck", &err), &err);
+        change_chunk(cases[i].block, cases[i].name, cases[i].shorter);
+        assert_refused(load(&b.sim, "a.ck", &err), STATUS_INPUT, cases[i].message, &err);
+    }
+    unlink("a.ck");
+    close_balloon(&b);
+}
+
 static void points_that_are_nowhere_are_no_state(void **state)
 {
     (void)state;
@@ -264,6 +313,18 @@ static void points_that_are_nowhere_are_no_state(void **state)
     close_balloon(&b);
 }
 
+/* As another version would have written it. */
+static void a_log_of_other_columns_is_not_gone_on_with(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct sim_log *log = NULL;
+    const struct sim_log_options options = {.rows = "time\tvolume\n", .row_bytes = 12};
+    assert_refused(sim_log_open("log.tsv", &options, &log, &err), STATUS_INPUT, "has other columns", &err);
+    assert_null(log);
+    assert_int_equal(access("log.tsv", F_OK), -1);
+}
+
 /* Hundreds of files that are synced: in memory, where the machine has room there. */
 static int enter_memory(void **state)
 {
@@ -283,6 +344,8 @@ int main(void)
         cmocka_unit_test(damage_anywhere_is_found),
         cmocka_unit_test(what_is_sound_and_yet_no_state_is_refused),
         cmocka_unit_test(points_that_are_nowhere_are_no_state),
+        cmocka_unit_test(a_log_of_other_columns_is_not_gone_on_with),
+        cmocka_unit_test(chunks_that_are_others_than_they_must_be_are_named),
     };
     return cmocka_run_group_tests(tests, enter_memory, leave_folder);
 }

@@ -3,6 +3,8 @@
 #include "journals.h"
 #include "sculpt/chip_log.h"
 
+#include <sys/stat.h>
+
 static void a_new_cube_and_what_was_done_to_it_are_recovered(void **state)
 {
     (void)state;
@@ -204,6 +206,46 @@ static void going_on_with_a_journal_changes_nothing_about_it(void **state)
     assert_recovers(THREE);
 }
 
+/* Neither a new name nor a link reaches there: journal and base are copied. */
+static void a_journal_goes_along_to_another_file_system(void **state)
+{
+    (void)state;
+    char other[] = "/dev/shm/balloon-journal-XXXXXX", path[64], name[80];
+    struct stat here, there;
+    if (!mkdtemp(other) || stat(".", &here) || stat(other, &there) || here.st_dev == there.st_dev) {
+        rmdir(other);
+        print_message("/dev/shm is no other file system than the test's folder: nothing to move to\n");
+        skip();
+    }
+    leave_nothing();
+    struct error err = {0};
+    snprintf(path, sizeof path, "%s/a.oct", other);
+    struct octree tree = carved(ONE), wanted = carved(ONE TWO THREE);
+    struct journal *journal = NULL;
+    struct journal_report report;
+    assert_ok(journal_open("a.oct", &tree, &journal, &err), &err); /* with a base: no file has this tree */
+    append(journal, TWO);
+    assert_int_equal(access(BASE, F_OK), 0);
+    assert_ok(journal_move(journal, path, &err), &err);
+    assert_int_equal(access(JOURNAL, F_OK), -1);
+    assert_int_equal(access(BASE, F_OK), -1);
+    append(journal, THREE);
+    bool left;
+    assert_refused(journal_is_left(path, &left, &err), STATUS_RESOURCE, path,
+                   &err); /* it is locked there too */
+    journal_close(journal, false);
+    octree_clear(&tree);
+    assert_ok(journal_recover(path, &tree, NULL, &report, &err), &err);
+    assert_true(octree_equal(&tree, &wanted));
+    octree_clear(&tree);
+    octree_clear(&wanted);
+    for (int i = 0; i < 2; i++) {
+        snprintf(name, sizeof name, "%s%s", path, i ? ".journal-base" : ".journal");
+        assert_int_equal(unlink(name), 0);
+    }
+    rmdir(other);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -219,6 +261,7 @@ int main(void)
         cmocka_unit_test(a_journal_that_is_closed_for_good_leaves_no_file),
         cmocka_unit_test(a_journal_that_is_left_is_gone_on_with),
         cmocka_unit_test(going_on_with_a_journal_changes_nothing_about_it),
+        cmocka_unit_test(a_journal_goes_along_to_another_file_system),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

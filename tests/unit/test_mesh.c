@@ -1,5 +1,5 @@
 /* Points, edges and triangles out of a soup, and what they enclose. */
-#include "common/mesh.h"
+#include "common/mesh_files.h"
 #include "common/random.h"
 #include "solids.h"
 #include "support/shapes.h"
@@ -204,6 +204,22 @@ static void more_points_than_32_bits_count_are_refused(void **state)
     assert_null(mesh.position);
 }
 
+/* The counts alone say so, before any memory is asked for. */
+static void more_triangles_than_32_bits_count_are_refused(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct triangle_list list = {.count = UINT32_MAX - 1, .capacity = UINT32_MAX};
+    assert_refused(triangle_list_add(&list, 0, 1, 2, &err), STATUS_RANGE, "more than 4294967294 triangles",
+                   &err);
+    struct mesh mesh = {.point_count = 3, .triangle_count = UINT32_MAX / 3 + 1};
+    assert_refused(mesh_connect(&mesh, &err), STATUS_RANGE,
+                   "1431655766 triangles are too many to find their edges; at most 1431655765", &err);
+    const double corner[3][3] = {{0}};
+    assert_refused(mesh_from_soup(corner, UINT32_MAX, &mesh, &err), STATUS_RANGE,
+                   "0 points and 4294967295 triangles is too large", &err);
+}
+
 static void a_cube_has_volume_one_and_area_six(void **state)
 {
     (void)state;
@@ -279,6 +295,7 @@ int main(void)
         cmocka_unit_test(a_point_with_a_million_edges_is_no_harder),
         cmocka_unit_test(a_corner_that_is_no_point_has_no_edges),
         cmocka_unit_test(more_points_than_32_bits_count_are_refused),
+        cmocka_unit_test(more_triangles_than_32_bits_count_are_refused),
         cmocka_unit_test(neighbours_get_near_numbers_and_the_shape_stays),
         cmocka_unit_test(a_cube_has_volume_one_and_area_six),
         cmocka_unit_test(volume_does_not_suffer_from_being_far_away),

@@ -112,9 +112,23 @@ static void a_flipped_bit_of_a_chunk_is_found_and_nothing_is_replaced(void **sta
     bytes_clear(&bytes);
 }
 
+/* The size alone says so: nothing is there to be read, and no file is begun. */
+static void a_chunk_whose_size_needs_more_than_32_bits_is_refused(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct octree tree = {0};
+    struct octree_chunk large = {.name = "LARG", .data = {NULL, (size_t)UINT32_MAX + 1}};
+    const struct octree_chunks chunks = {.items = &large, .count = 1};
+    assert_refused(octree_save_with(&tree, &chunks, "large.oct", &err), STATUS_RANGE,
+                   "large.oct: chunk LARG has 4294967296 bytes; at most 4294967295 are possible", &err);
+    assert_int_equal(access("large.oct", F_OK), -1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_chunk_whose_size_needs_more_than_32_bits_is_refused),
         cmocka_unit_test(chunks_come_back_in_their_order),
         cmocka_unit_test(who_does_not_ask_for_chunks_reads_the_same_octree),
         cmocka_unit_test(a_chunk_of_the_same_name_is_replaced),

@@ -113,6 +113,26 @@ static void a_save_that_fails_leaves_the_name_the_journal_and_the_work_as_they_w
     session_clear(&session);
 }
 
+/* Where no journal can be kept the user is told, carves, and goes on under a name that can have one. */
+static void without_a_journal_work_is_kept_from_the_first_save_on(void **state)
+{
+    (void)state;
+    unlink("other.oct");
+    assert_ok(session_open(&session, "nowhere/new.oct", 5, false, &err), &err);
+    assert_null(session.journal);
+    assert_non_null(strstr(session.warning, "nothing is kept until you save: nowhere/new.oct.journal"));
+    click(0.3, 0.3);
+    assert_ok(session_save_as(&session, "other.oct", NULL, &err), &err);
+    assert_non_null(session.journal);
+    assert_string_equal(session.warning, "");
+    click(0.7, 0.7);
+    kill_session();
+    assert_file("other.oct", FIRST);
+    assert_ok(session_open(&session, "other.oct", 5, true, &err), &err);
+    assert_tree(&session.tree, FIRST SECOND);
+    session_clear(&session);
+}
+
 static void chunks_that_are_not_known_are_kept(void **state)
 {
     (void)state;
@@ -202,6 +222,7 @@ int main(void)
         cmocka_unit_test(what_is_carved_while_it_saves_is_not_in_the_file_and_unsaved),
         cmocka_unit_test(undo_of_steps_before_a_new_name_survives_a_kill),
         cmocka_unit_test(a_save_that_fails_leaves_the_name_the_journal_and_the_work_as_they_were),
+        cmocka_unit_test(without_a_journal_work_is_kept_from_the_first_save_on),
         cmocka_unit_test(chunks_that_are_not_known_are_kept),
         cmocka_unit_test(what_has_no_file_yet_is_unsaved_work_that_survives_a_kill),
         cmocka_unit_test(steps_beyond_the_undo_memory_are_counted),

@@ -151,6 +151,18 @@ static void scene_graphs_that_are_no_trees_are_refused(void **state)
     assert_rejected(model.data, model.size, "_t must be three whole numbers");
 }
 
+static void a_scene_graph_that_is_too_deep_is_refused(void **state)
+{
+    (void)state;
+    struct model model = new_model();
+    add_size(&model, 2, 2, 3);
+    add_voxels(&model, letter, 5);
+    for (uint32_t id = 0; id <= 256; id++)
+        add_group(&model, id, &(uint32_t){id + 1}, 1);
+    add_shape(&model, 257, 0);
+    assert_rejected(model.data, model.size, "the scene graph is nested more than 256 deep");
+}
+
 static void models_too_far_apart_and_empty_ones_are_refused(void **state)
 {
     (void)state;
@@ -195,6 +207,7 @@ int main(void)
         cmocka_unit_test(chunks_out_of_order_are_refused),
         cmocka_unit_test(foreign_files_and_versions_are_refused),
         cmocka_unit_test(scene_graphs_that_are_no_trees_are_refused),
+        cmocka_unit_test(a_scene_graph_that_is_too_deep_is_refused),
         cmocka_unit_test(models_too_far_apart_and_empty_ones_are_refused),
         cmocka_unit_test(a_flipped_bit_never_does_harm),
     };

@@ -7,7 +7,7 @@
 
 /* A file being made. */
 struct model {
-    unsigned char data[4096];
+    unsigned char data[16384];
     size_t size;
 };
 
