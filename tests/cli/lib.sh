@@ -39,6 +39,14 @@ refused()
     [ ! -s .stdout ] || fail "stdout is not empty"
 }
 
+# A case that cannot be had here ends with 77 and a line that says why.
+skipped()
+{
+    echo "$1: nothing was checked"
+    exit 77
+}
+needs() { command -v "$1" >/dev/null || skipped "$1 is not installed"; }
+
 no_file() { [ ! -e "$1" ] || fail "$1 was left behind"; }
 a_file() { [ -s "$1" ] || fail "$1 is missing or empty"; }
 same_file() { cmp -s "$1" "$2" || fail "$1 and $2 differ"; }
