@@ -51,7 +51,7 @@ static void every_method_is_there_and_errors_fall_with_its_order(void **state)
     (void)state;
     static struct accuracy_table table;
     struct error err = {0};
-    assert_ok(measure(CALM, &(struct accuracy_options){.seconds = 2}, &table, &err), &err);
+    assert_ok(measure(CALM, &(struct accuracy_options){.seconds = 10}, &table, &err), &err);
     size_t methods = 0;
     for (; integrators[methods]; methods++) {
         size_t first = 0;
