@@ -66,6 +66,7 @@ idle() { sinfo --noheader --format %t | grep -q idle; }
 wait_for 30 idle || skipped "slurmd does not start here: $(tail -n 1 slurmd.log)"
 
 cp "$PROGRAMS/data/sphere.ply" "$PROGRAMS/data/sphere.cfg" .
+export BALLOON_SIM="$PROGRAMS/sim/balloon-sim"
 set -- sphere.cfg 'balloons[0].spring=10:40:3' time.step=0.02:0.03:2 --set time.end=1
 expect 0 timeout 150 "$SWEEP" "$@" --out "by slurm's" --slurm
 stdout_has '^6 of 6 points are there: '
@@ -81,3 +82,7 @@ expect 0 timeout 150 "$SWEEP" "$@" --out "by slurm's" --slurm
 [ "$(ls "by slurm's" | grep -c '^slurm-')" = 1 ] || fail "more than one task: $(ls "by slurm's")"
 cut -f 1-7 "by slurm's/sweep.tsv" >got
 same_file wanted got
+
+# A film's parts likewise.
+expect 0 timeout 150 "$(dirname "$SWEEP")/film" sphere.cfg --out "film's" --end 1 --parts 2 --slurm --set 'view.size=[160,60]' --set view.rate=10
+stdout_has '^11 frames: '

@@ -10,6 +10,7 @@ set -- sphere.cfg --out "the film's" --end 2 --parts 3 $look
 expect 0 "$film" "$@"
 stdout_has '^21 frames: '
 for frame in whole/*.png; do same_file "$frame" "the film's/frames/${frame##*/}"; done
+[ "$(find "the film's"/part-* -name '*.png' | wc -l)" = 21 ] || fail "parts drew frames of others"
 
 rm -r "the film's/part-2"
 touch -d 2000-01-01 "the film's/part-1" "the film's/part-3"
