@@ -1,4 +1,5 @@
 #include "common/command.h"
+#include "common/file.h"
 
 #include <errno.h>
 #include <math.h>
@@ -84,6 +85,14 @@ long command_whole(struct argp_state *state, const char *option, const char *arg
     if (end == argument || *end || errno || value < least || value > most)
         argp_error(state, "%s %s: must be a whole number from %ld to %ld", option, argument, least, most);
     return value;
+}
+
+void command_extension(struct argp_state *state, const char *option, const char *argument,
+                       const char *extension)
+{
+    const char *slash = strrchr(argument, '/');
+    if (strchr(slash ? slash : argument, '.') && !file_has_extension(argument, extension))
+        argp_error(state, "%s %s: the name must end in .%s", option, argument, extension);
 }
 
 static struct {

@@ -36,6 +36,11 @@ double command_number(struct argp_state *state, const char *option, const char *
                       double most);
 long command_whole(struct argp_state *state, const char *option, const char *argument, long least, long most);
 
+/* An option's file must be named after what is written to it, "png" say, or have no extension, as devices have none; else argp's usage
+ * error: exit 2. */
+void command_extension(struct argp_state *state, const char *option, const char *argument,
+                       const char *extension);
+
 /* A number that fills its whole text ("1e-3", not "1e-3x", not ""). nan and inf are refused. */
 bool number_parse(const char *text, double *value);
 

@@ -273,7 +273,9 @@ static enum status load_bytes(struct loader *loader, const struct bytes *file, s
     if (file->size == 0)
         return error_set(err, STATUS_INPUT, "the file is empty; an .oct file is wanted");
     if (file->size < sizeof signature || memcmp(file->data, signature, sizeof signature) != 0)
-        return error_set(err, STATUS_INPUT, "not an .oct file: it does not begin with the signature of one");
+        return error_set(
+            err, STATUS_INPUT,
+            "not an .oct file: it does not begin with the signature of one; balloon-sculpt --script or --import makes one");
     struct chunk chunk = {0};
     size_t at = sizeof signature;
     while (strcmp(chunk.name, "END ") != 0) {

@@ -230,9 +230,10 @@ static enum status refuse_grammar(const config_t *config, const char *path, stru
 {
     const char *file = config_error_file(config) ? config_error_file(config) : path;
     const bool mixed = strstr(config_error_text(config), "mismatched element");
-    return error_set(
-        err, STATUS_INPUT, "%s:%d: %s; %s", file, config_error_line(config), config_error_text(config),
-        mixed ? "write [0.0, 1.0, 2.5] or (0, 1, 2.5)" : "a scene is made of lines like key = value;");
+    return error_set(err, STATUS_INPUT, "%s:%d: %s; %s", file, config_error_line(config),
+                     config_error_text(config),
+                     mixed ? "write [0.0, 1.0, 2.5] or (0, 1, 2.5)"
+                           : "a scene is made of lines like key = value; with text in quotes");
 }
 
 static enum status parse_file(const char *path, const struct bytes *text, struct scene *scene,
@@ -251,7 +252,10 @@ static enum status parse_file(const char *path, const struct bytes *text, struct
     config_set_include_dir(&config, *folder ? folder : ".");
     enum status status;
     if (strlen((const char *)text->data) != text->size)
-        status = error_set(err, STATUS_INPUT, "%s: is not a scene file: it is not text", path);
+        status = error_set(
+            err, STATUS_INPUT,
+            "%s: is not a scene file: it is not text; a scene (.cfg) or a mesh (.ply, .stl, .obj) is wanted",
+            path);
     else if (!config_read_string(&config, (const char *)text->data))
         status = refuse_grammar(&config, path, err);
     else

@@ -54,10 +54,22 @@ static void consider(struct guess *best, const char *wrong, const char *name)
         *best = (struct guess){name, distance};
 }
 
+/* Where a block of that name belongs that does not belong here; NULL: there is none. */
+static const char *place_of(const char *name)
+{
+    for (size_t i = 0; i < scene_block_count; i++)
+        if (!strcmp(scene_blocks[i].name, name))
+            return scene_blocks[i].parent[0] ? "stands inside a balloon: balloons = ( { ... } )"
+                                             : "stands outside of balloons, on its own";
+    return NULL;
+}
+
 enum status scene_refuse_name(const struct scene_source *source, const config_setting_t *at, const char *name,
                               const struct scene_block *block, struct error *err)
 {
-    const char *owner = block ? block->name : "";
+    const char *owner = block ? block->name : "", *place = place_of(name);
+    if (place)
+        return scene_refuse(source, at, err, "the block `%s` %s", name, place);
     struct guess best = {NULL, strlen(name) / 2 + 1};
     for (size_t i = 0; block && i < block->field_count; i++)
         consider(&best, name, block->fields[i].key);

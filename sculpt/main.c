@@ -83,6 +83,7 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         options->exports[options->export_count++] = argument;
         return 0;
     case OPTION_RENDER:
+        command_extension(state, "--render", argument, "png");
         options->picture = argument;
         return 0;
     case OPTION_INFO:
@@ -101,6 +102,7 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         options->undo_megabytes = command_whole(state, "--undo-memory", argument, 1, UNDO_MEGABYTES_MAX);
         return 0;
     case 'o':
+        command_extension(state, "-o", argument, "oct"); /* --export writes the others */
         options->output = argument;
         return 0;
     case 'q':

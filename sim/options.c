@@ -152,6 +152,7 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         o->movie = argument;
         break;
     case OPTION_SHEET:
+        command_extension(state, "--contact-sheet", argument, "png");
         o->sheet = argument;
         break;
     case OPTION_TURNTABLE:

@@ -16,3 +16,11 @@ refused 2 '--export a\.stl: \.vox, \.ply and \.chips are written' balloon-sculpt
 refused 2 'nothing is done with the sculpture: give -o' balloon-sculpt --script a.chips
 no_file a.oct
 no_file new.oct
+
+# What is written says what it is.
+refused 2 '-o x.ply: the name must end in .oct' balloon-sculpt --depth 1 -o x.ply
+refused 2 '--render x.jpg: the name must end in .png' balloon-sculpt --depth 1 --render x.jpg
+no_file x.ply
+no_file x.jpg
+echo 'start empty' >s.chips
+refused 1 's.chips: not an .oct file: .*--script or --import makes one$' balloon-sculpt s.chips --info

@@ -33,3 +33,11 @@ for key in spring damping threshold pressure; do
     done
 done
 refused 1 'unknown key `gass` .*did you mean `gas`' balloon-sim m.ply --set 'balloons[0].gass.fill=1'
+
+# A block in the wrong place is told its own; text without quotes, and what is not a scene at all.
+bad 's.cfg:2: the block `gas` stands inside a balloon' 'balloons = ( { mesh = "m.ply"; } );
+gas = { ambient = 6; };'
+bad 's.cfg:1: the block `gravity` stands outside of balloons' 'balloons = ( { mesh = "m.ply"; gravity = { }; } );'
+bad 's.cfg:1: syntax error; .*text in quotes$' 'balloons = ( { mesh = m.ply; } );'
+balloon-sculpt -q --depth 1 -o cube.oct
+refused 1 'cube.oct: is not a scene file: .*a scene \(.cfg\) or a mesh .* is wanted$' balloon-sim cube.oct

@@ -10,3 +10,5 @@ stdout_has '^balloon-sim [0-9]+\.[0-9]+\.[0-9]+$'
 expect 0 balloon-sim --help-scene
 stdout_has '^ +pressure +on each point, along its normal$'
 stdout_has 'default 10, may be scheduled'
+
+refused 2 '--contact-sheet x.jpg: the name must end in .png' balloon-sim m.ply --contact-sheet x.jpg
