@@ -8,9 +8,10 @@
  * as one, with the velocity that its momentum asks for: a rigid zone, that grows until nothing approaches any more (Provot 1997; there,
  * section 7.5).
  *
- * Which pairs can come near each other is known from a list (contact_pairs.c). It holds for as long as no point strays further than a tenth
- * of an edge from where it was when the list was made, growth and motion of the balloon as a whole left aside: a balloon with nothing near it
- * pays for a look at its points and nothing else. Contact sleeps while the list is empty.
+ * Which pairs can come near each other is known from a list (contact_list.c). It is made for some steps to come, on the lines that the points
+ * are going along, and holds for as long as no point strays further than a tenth of an edge from its line, growth and motion of the
+ * balloon as a whole left aside: a balloon with nothing near it pays for a look at its points and nothing else. How many steps, it learns from how
+ * the lists before it went. Contact sleeps while the list is empty.
  */
 #ifndef SIM_CONTACT_H
 #define SIM_CONTACT_H
@@ -20,12 +21,13 @@
 
 /* A point and a triangle, or two edges. */
 struct contact_pair {
-    uint32_t a, b; /* point and triangle; edges, a < b */
-    uint32_t kind; /* enum ccd_kind */
-    float near;    /* no nearer than this to each other on the ways that the list was made for */
+    uint32_t a, b;            /* point and triangle; edges, a < b */
+    uint32_t kind;            /* enum ccd_kind */
+    float distance, approach; /* on the list's lines no nearer than distance - gone x approach */
 };
 
-/* How points have moved since the list was made: as a whole, and from that. A pair is still no nearer than growth x near - 2 stray. */
+/* How points have moved against the list's lines: as a whole, and from that. A pair is no nearer than growth x (its distance - gone x
+ * its approach) - 2 stray. */
 struct contact_drift {
     double growth; /* the least of all balloons, no more than 1 */
     double stray;  /* the largest of all points */
@@ -35,16 +37,19 @@ struct contact {
     double thickness, friction; /* skins are kept between half of it and all of it apart */
     struct contact_tree tree;
 
-    /* What the list was made for; the state, since other lists could find other touches first. */
+    /* The lines that the list was made for, gone along from one end to the other in so many steps; the state, since other lists could find
+     * other touches first. */
     double (*from)[4], (*to)[4]; /* [point_count] owned */
     struct contact_memory {
         uint64_t made;              /* lists made so far */
-        uint64_t made_in;           /* the step, from 1 */
+        uint64_t made_in;           /* the step, from 1; the lines begin where it did */
+        uint64_t horizon;           /* steps for which it was made */
         uint64_t is_awake;          /* 1: the last step had pairs to look at */
-        double stray;               /* how far a point may be from `to` while the list holds */
+        double stray;               /* how far a point may be from its line while the list holds */
         uint64_t wakes, zones;      /* so far: wakes; steps that needed a rigid zone */
         struct contact_drift began; /* at the present step's beginning */
-        uint64_t is_at_rest;        /* 1: made for points that stay where they are */
+        double used;                /* share of what may be strayed, at its end */
+        double pace;                /* the longest way that a line takes in a step */
     } memory;
     struct contact_drift now; /* by the last contact_list_holds(), */
     double used;              /* and the share of what may be strayed */
@@ -66,13 +71,15 @@ struct contact {
     double *strayed; /* [part_count] the largest square; owned */
 };
 
-/* contact_pairs.c: makes the list anew for the ways of this step; once that is over for the steps to come, which is less work; or again for what it was
- * made for. STATUS_RANGE when more is near than there is room for. */
-enum status contact_list_make(struct sim *sim, struct error *err);
-enum status contact_list_make_ahead(struct sim *sim, struct error *err);
+/* contact_pairs.c: finds the pairs for the lines and the stray at hand. STATUS_RANGE when more is near than there is room for. */
 enum status contact_list_find(struct sim *sim, struct error *err);
+
+/* contact_list.c: makes the list anew, for this step and those that would follow on the same lines. Errors: those of finding. */
+enum status contact_list_make(struct sim *sim, struct error *err);
 /* Whether the list at hand holds for the present step's ways. */
 bool contact_list_holds(struct sim *sim);
+/* How much of its lines is gone at the end of the present step: 0 to 1 while it holds. */
+double contact_list_gone(const struct sim *sim);
 
 /* The four points of a pair. */
 void contact_points(const struct sim *sim, const struct contact_pair *pair, uint32_t points[4]);

@@ -8,7 +8,6 @@
 #include <string.h>
 
 enum { ROUNDS_MAX = 40 };
-#define SOON 0.75 /* of what may be strayed: the next step would hardly end within it */
 
 /* Ways that a pair may go, and how near. */
 struct approach {
@@ -37,7 +36,7 @@ struct look {
     const struct sim *sim;
     bool zones;
     uint32_t *hit_count;
-    double growth, far; /* pairs whose near x growth is more than that do not touch */
+    double growth, gone, far; /* pairs that are further from each other do not touch */
 };
 
 enum { PAIRS_AT_ONCE = 256 };
@@ -53,7 +52,8 @@ static void look_at(void *context, size_t index, unsigned worker)
     for (uint32_t i = begin; i < end; i++) {
         struct approach a;
         uint32_t p[4];
-        if ((double)c->pairs[i].near * look->growth > look->far)
+        if (((double)c->pairs[i].distance - look->gone * (double)c->pairs[i].approach) * look->growth >
+            look->far)
             continue;
         contact_points(sim, &c->pairs[i], p);
         if (!(c->stirred[p[0]] | c->stirred[p[1]] | c->stirred[p[2]] | c->stirred[p[3]]))
@@ -104,7 +104,11 @@ bool contact_look(struct sim *sim, bool zones)
     struct contact *c = sim->contact;
     c->hit_count = 0;
     const struct contact_drift *a = &c->memory.began, *b = &c->now;
-    struct look look = {sim, zones, &c->hit_count, fmin(a->growth, b->growth),
+    struct look look = {sim,
+                        zones,
+                        &c->hit_count,
+                        fmin(a->growth, b->growth),
+                        contact_list_gone(sim),
                         2 * fmax(a->stray, b->stray) + c->thickness / 2};
     threads_run(sim->pool, (c->pair_count + PAIRS_AT_ONCE - 1) / PAIRS_AT_ONCE, look_at, &look);
     sort_hits(c);
@@ -235,7 +239,7 @@ static void turn_stirred(struct sim *sim)
 enum status contact_settle(struct sim *sim, struct error *err)
 {
     struct contact *c = sim->contact;
-    bool touched = sim->obstacles && obstacles_settle(sim);
+    sim->changed |= sim->obstacles && obstacles_settle(sim);
     enum status status = renew(sim, err);
     if (status)
         return status;
@@ -247,7 +251,7 @@ enum status contact_settle(struct sim *sim, struct error *err)
     }
     bool hits = c->pair_count > 0 && contact_look(sim, false);
     for (int round = 0; hits && round < ROUNDS_MAX && !status; round++) {
-        touched = true;
+        sim->changed = true;
         contact_push(sim);
         turn_stirred(sim);
         status = renew(sim, err);
@@ -255,9 +259,7 @@ enum status contact_settle(struct sim *sim, struct error *err)
     }
     if (hits && !status)
         status = contact_freeze(sim, err);
-    sim->changed |= touched;
     c->memory.began = c->now;
-    if (!status && c->used > SOON)
-        status = contact_list_make_ahead(sim, err);
+    c->memory.used = c->used;
     return status;
 }

@@ -9,33 +9,20 @@
 
 enum { LEAF = 4, FITS = 64, SIDES = 13, CONNECTED_MOST = 4096 };
 
-/* Half of the directions to the middles of a cube's faces, edges and corners; the others are their opposites. */
-static const double side[3][SIDES + 3] = {{1, 0, 0, 1, 1, 1, 1, 0, 0, 1, 1, 1, 1},
-                                          {0, 1, 0, 1, -1, 0, 0, 1, 1, 1, 1, -1, -1},
-                                          {0, 0, 1, 0, 0, 1, -1, 1, -1, 1, -1, 1, -1}};
-static const double side_length[SIDES + 3] = {1,
-                                              1,
-                                              1,
-                                              1.4142135623730951,
-                                              1.4142135623730951,
-                                              1.4142135623730951,
-                                              1.4142135623730951,
-                                              1.4142135623730951,
-                                              1.4142135623730951,
-                                              1.7320508075688772,
-                                              1.7320508075688772,
-                                              1.7320508075688772,
-                                              1.7320508075688772};
-
-static const struct contact_box nowhere = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-
-static void join(struct contact_box *box, const struct contact_box *other)
-{
-    for (int i = 0; i < 3; i++) {
-        box->low[i] = other->low[i] < box->low[i] ? other->low[i] : box->low[i];
-        box->high[i] = other->high[i] > box->high[i] ? other->high[i] : box->high[i];
-    }
-}
+/* Half of the directions to the middles of a cube's faces, edges and corners, by their coordinates; the others are their opposites. Four at a time,
+ * the last of them 0: to that side nothing looks. Then lengths that are no less than theirs, 1, sqrt 2 and sqrt 3. */
+enum { SIDE_ROWS = 4 };
+static const box_row side[3][SIDE_ROWS] = {{{1, 0, 0, 1}, {1, 1, 1, 0}, {0, 1, 1, 1}, {1, 0, 0, 0}},
+                                           {{0, 1, 0, 1}, {-1, 0, 0, 1}, {1, 1, 1, -1}, {-1, 0, 0, 0}},
+                                           {{0, 0, 1, 0}, {0, 1, -1, 1}, {-1, 1, -1, 1}, {-1, 0, 0, 0}}};
+static const box_row side_length[SIDE_ROWS] = {{1, 1, 1, 1.4143F},
+                                               {1.4143F, 1.4143F, 1.4143F, 1.4143F},
+                                               {1.4143F, 1.7321F, 1.7321F, 1.7321F},
+                                               {1.7321F, 1, 1, 1}};
+static const box_mask side_bit[SIDE_ROWS] = {{1, 1 << 1, 1 << 2, 1 << 3},
+                                             {1 << 4, 1 << 5, 1 << 6, 1 << 7},
+                                             {1 << 8, 1 << 9, 1 << 10, 1 << 11},
+                                             {1 << 12, 0, 0, 0}};
 
 /* What making the tree needs, and fitting does not. */
 struct maker {
@@ -48,16 +35,16 @@ struct maker {
 
 static int longest_axis(const struct maker *m, uint32_t begin, uint32_t end)
 {
-    struct contact_box box = nowhere;
+    struct contact_box box = contact_box_empty();
     for (uint32_t i = begin; i < end; i++) {
         const double *x = m->middle[m->tree->order[i]];
-        const struct contact_box point = {{x[0], x[1], x[2]}, {x[0], x[1], x[2]}};
-        join(&box, &point);
+        const struct contact_box point = contact_box_point(x, x, 0);
+        contact_box_join(&box, &point);
     }
+    const box_row size = box.high[0] - box.low[0];
     int axis = 0;
     for (int i = 1; i < 3; i++)
-        if (box.high[i] - box.low[i] > box.high[axis] - box.low[axis])
-            axis = i;
+        axis = size[i] > size[axis] ? i : axis;
     return axis;
 }
 
@@ -181,6 +168,7 @@ enum status contact_tree_open(struct contact_tree *tree, struct sim *sim, struct
     tree->nodes = sim_table(sim, 2 * triangles, sizeof *tree->nodes);
     tree->order = sim_table(sim, triangles, sizeof *tree->order);
     tree->box = sim_table(sim, triangles, sizeof *tree->box);
+    tree->point = sim_table(sim, sim->point_count, sizeof *tree->point);
     tree->root = sim_table(sim, sim->balloon_count, sizeof *tree->root);
     tree->jobs = sim_table(sim, CONTACT_JOBS, sizeof *tree->jobs);
     tree->fit = sim_table(sim, FITS + 2 * sim->balloon_count, sizeof *tree->fit);
@@ -188,8 +176,8 @@ enum status contact_tree_open(struct contact_tree *tree, struct sim *sim, struct
     m.of_edge = calloc(sim->edge_count, sizeof *m.of_edge);
     m.parent = array_new(triangles, sizeof *m.parent);
     m.inside = array_new(triangles, sizeof *m.inside);
-    const bool room = tree->nodes && tree->order && tree->box && tree->root && tree->jobs && tree->fit &&
-                      m.middle && m.of_edge && m.parent && m.inside;
+    const bool room = tree->nodes && tree->order && tree->box && tree->point && tree->root && tree->jobs &&
+                      tree->fit && m.middle && m.of_edge && m.parent && m.inside;
     if (room) {
         make_all(&m);
         find_fits(tree, sim->triangle_count);
@@ -207,6 +195,7 @@ void contact_tree_close(struct contact_tree *tree)
     free(tree->order);
     free(tree->root);
     free(tree->box);
+    free(tree->point);
     free(tree->jobs);
     free(tree->fit);
     *tree = (struct contact_tree){0};
@@ -242,26 +231,28 @@ static int normals_of(const struct contact_ways *ways, const uint32_t *p, double
 }
 
 /* The normal is a x b + b x c + c x a. With the corners off by `stray` each it is off by up to stray times the sides' sum, and by twice the area
- * of a triangle in a sphere of that radius: no more than 3 sqrt(3)/2 stray^2. */
+ * of a triangle in a sphere of that radius: no more than 3 sqrt(3)/2 stray^2. What single precision adds is below 1e-6 of that sum squared. */
 static uint32_t sides_of(const struct contact_ways *ways, const uint32_t *p)
 {
     double n[3][3], perimeter;
     const int count = normals_of(ways, p, n, &perimeter);
-    const double slack = ways->stray * perimeter + 2.6 * ways->stray * ways->stray;
-    double least[SIDES + 3], most[SIDES + 3];
-    for (int s = 0; s < SIDES + 3; s++)
-        least[s] = most[s] = n[0][0] * side[0][s] + n[0][1] * side[1][s] + n[0][2] * side[2][s];
-    for (int i = 1; i < count; i++)
-        for (int s = 0; s < SIDES + 3; s++) {
-            const double along = n[i][0] * side[0][s] + n[i][1] * side[1][s] + n[i][2] * side[2][s];
-            least[s] = along < least[s] ? along : least[s];
-            most[s] = along > most[s] ? along : most[s];
+    const float slack = (float)(ways->stray * perimeter + 2.6 * ways->stray * ways->stray +
+                                1e-6 * perimeter * perimeter);
+    box_mask front = {0}, back = {0};
+    for (int r = 0; r < SIDE_ROWS; r++) {
+        const box_row least = slack * side_length[r];
+        box_mask ahead = side_bit[r], behind = side_bit[r];
+        for (int i = 0; i < count; i++) {
+            const box_row along = (float)n[i][0] * side[0][r] + (float)n[i][1] * side[1][r] +
+                                  (float)n[i][2] * side[2][r];
+            ahead &= along > least;
+            behind &= -along > least;
         }
-    uint32_t bits = 0;
-    for (int s = 0; s < SIDES; s++)
-        bits |= (uint32_t)(least[s] > slack * side_length[s]) << s |
-                (uint32_t)(most[s] < -slack * side_length[s]) << (s + SIDES);
-    return bits;
+        front |= ahead;
+        back |= behind;
+    }
+    return (uint32_t)(front[0] | front[1] | front[2] | front[3]) |
+           (uint32_t)(back[0] | back[1] | back[2] | back[3]) << SIDES;
 }
 
 /* A patch with a cut in it can cross itself there, whichever way it looks. */
@@ -287,26 +278,14 @@ static bool is_whole(const struct sim *sim, uint32_t t)
 static void fit_leaf(const struct contact_tree *tree, const struct sim *sim, const struct contact_ways *ways,
                      struct contact_node *node)
 {
-    const double more = ways->stray + ways->room / 2;
     for (uint32_t i = node->begin; i < node->end; i++) {
         const uint32_t t = tree->order[i], *p = sim->triangle_point[t];
-        struct contact_box box = nowhere;
-        tree->box[t] = box;
+        tree->box[t] = contact_box_empty();
         if (!sim->triangle_active[t])
             continue;
         for (int k = 0; k < 3; k++)
-            for (int j = 0; j < 3; j++) {
-                const double a = ways->from[p[k]][j], b = ways->to[p[k]][j], low = a < b ? a : b,
-                             high = a < b ? b : a;
-                box.low[j] = low < box.low[j] ? low : box.low[j];
-                box.high[j] = high > box.high[j] ? high : box.high[j];
-            }
-        for (int j = 0; j < 3; j++) {
-            box.low[j] -= more;
-            box.high[j] += more;
-        }
-        tree->box[t] = box;
-        join(&node->box, &box);
+            contact_box_join(&tree->box[t], &tree->point[p[k]]);
+        contact_box_join(&node->box, &tree->box[t]);
         node->sides &= is_whole(sim, t) ? sides_of(ways, p) : 0;
     }
 }
@@ -316,7 +295,7 @@ static void fit_nodes(const struct contact_tree *tree, const struct sim *sim, co
 {
     for (uint32_t n = end; n-- > begin;) {
         struct contact_node *node = &tree->nodes[n];
-        node->box = nowhere;
+        node->box = contact_box_empty();
         node->sides = UINT32_MAX;
         if (!node->right) {
             fit_leaf(tree, sim, ways, node);
@@ -324,7 +303,7 @@ static void fit_nodes(const struct contact_tree *tree, const struct sim *sim, co
         }
         const struct contact_node *left = &tree->nodes[n + 1], *right = &tree->nodes[node->right];
         node->box = left->box;
-        join(&node->box, &right->box);
+        contact_box_join(&node->box, &right->box);
         node->sides = left->sides & right->sides;
     }
 }
@@ -343,9 +322,19 @@ static void fit_one(void *context, size_t index, unsigned worker)
     fit_nodes(job->tree, job->sim, job->ways, node, job->tree->nodes[node].next);
 }
 
+static void box_points(struct sim *sim, const struct sim_part *part, void *context)
+{
+    const struct fit_job *job = context;
+    const struct contact_ways *ways = job->ways;
+    for (uint32_t p = part->point_begin; p < part->point_end; p++)
+        job->tree->point[p] = contact_box_point(ways->from[p], ways->to[p], ways->stray + ways->room / 2);
+    (void)sim;
+}
+
 void contact_tree_fit(struct contact_tree *tree, struct sim *sim, const struct contact_ways *ways)
 {
     struct fit_job job = {tree, sim, ways};
+    sim_each_part(sim, box_points, &job);
     threads_run(sim->pool, tree->fit_count, fit_one, &job);
     uint32_t end = tree->node_count; /* what is above those, from the last to the first */
     for (uint32_t i = tree->fit_count; i-- > 0;) {

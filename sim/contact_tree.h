@@ -15,13 +15,10 @@
 #ifndef SIM_CONTACT_TREE_H
 #define SIM_CONTACT_TREE_H
 
+#include "sim/contact_box.h"
 #include "sim/sim.h"
 
 enum { CONTACT_JOBS = 4096 }; /* that a search is divided into at the most */
-
-struct contact_box {
-    double low[3], high[3];
-};
 
 /* Of each node the left child is the next one. */
 struct contact_node {
@@ -36,10 +33,11 @@ struct contact_node {
 struct contact_tree {
     struct contact_node *nodes; /* [node_count] owned */
     uint32_t node_count;
-    uint32_t *order;          /* [triangle_count] triangles as the leaves list them; owned */
-    uint32_t *root;           /* [balloon_count] owned */
-    struct contact_box *box;  /* [triangle_count] owned */
-    struct contact_job *jobs; /* [CONTACT_JOBS] two nodes, or one with itself; owned */
+    uint32_t *order;           /* [triangle_count] triangles as the leaves list them; owned */
+    uint32_t *root;            /* [balloon_count] owned */
+    struct contact_box *box;   /* [triangle_count] owned */
+    struct contact_box *point; /* [point_count] of each point's way; owned */
+    struct contact_job *jobs;  /* [CONTACT_JOBS] two nodes, or one with itself; owned */
     uint32_t job_count;
     uint32_t *fit; /* [fit_count] nodes that are fitted on their own, with all below; owned */
     uint32_t fit_count;
@@ -64,11 +62,5 @@ void contact_tree_fit(struct contact_tree *tree, struct sim *sim, const struct c
 /* Calls take for each two triangles whose boxes meet, t < u, on any worker and in any order. Triangles that are not active are in none. */
 void contact_tree_pairs(struct contact_tree *tree, struct sim *sim,
                         void (*take)(void *context, uint32_t t, uint32_t u), void *context);
-
-static inline bool contact_boxes_meet(const struct contact_box *a, const struct contact_box *b)
-{
-    return a->low[0] <= b->high[0] && b->low[0] <= a->high[0] && a->low[1] <= b->high[1] &&
-           b->low[1] <= a->high[1] && a->low[2] <= b->high[2] && b->low[2] <= a->high[2];
-}
 
 #endif

@@ -58,7 +58,7 @@ static enum status explicit_euler(struct sim *sim, double dt, struct error *err)
 
 const struct integrator integrator_symplectic_euler = {.name = "symplectic-euler",
                                                        .order = 1,
-                                                       .flags = INTEGRATOR_SYMPLECTIC,
+                                                       .flags = INTEGRATOR_SYMPLECTIC | INTEGRATOR_ONE_SWEEP,
                                                        .evaluations = 1,
                                                        .oscillation_limit = 2,
                                                        .decay_limit = 2,

@@ -40,11 +40,11 @@ static const struct cost {
     {"ground", "where points were; a look at each", {10, 12, 0}, {6, 8, 0}, {0, 0, 0}},
     {"obstacles", "where points were; a look at each", {10, 14, 0}, {6, 8, 0}, {0, 0, 0}},
     {"contact",
-     "260 bytes a triangle, and where points were; while nothing is near anything a look at each point, and now and then at all "
+     "950 bytes a triangle, and where points were; while nothing is near anything a look at each point, and now and then at all "
      "triangles (folded skin takes many times that)",
      {6, 8, 0},
-     {2, 2, 0},
-     {5, 8, 0.5}},
+     {0, 0, 0},
+     {1, 2, 0.5}},
     {"gravity", "a pass over the points", {5, 4, 0}, {0, 0, 0}, {0, 0, 0}},
     {"drag", "a row a point, and more work on each triangle", {4, 1, 0}, {0, 0, 0}, {9, 10, 0}},
     {"string", "a patch of points; six numbers where a weight hangs on it", {0, 0, 0}, {0, 0, 0}, {0, 0, 0}},

@@ -42,6 +42,7 @@ enum integrator_flags {
     INTEGRATOR_IMPLICIT = 1,   /* solves equations at each step */
     INTEGRATOR_SYMPLECTIC = 2, /* keeps the energy of an undamped system bounded at fixed steps */
     INTEGRATOR_ADAPTIVE = 4,   /* chooses its own steps within dt from time.tolerance */
+    INTEGRATOR_ONE_SWEEP = 8,  /* its sweep (sweep.h) moves the points all the way of a step */
 };
 extern const struct integrator *const integrators[]; /* NULL-terminated */
 const struct integrator *integrator_find(const char *name);

@@ -52,6 +52,11 @@ bool sweep_saw_none_overlong(const struct sim *sim)
     return none;
 }
 
+double sweep_saw_farthest(const struct sim *sim)
+{
+    return sim->swept && sim->integrator->flags & INTEGRATOR_ONE_SWEEP ? farthest(sim) : INFINITY;
+}
+
 double sweep_saw_energy(const struct sim *sim)
 {
     double energy = 0;

@@ -56,4 +56,7 @@ void sweep_part(struct sim *sim, const struct sim_part *part, void *move);
 bool sweep_saw_none_overlong(const struct sim *sim);
 double sweep_saw_energy(const struct sim *sim);
 
+/* Likewise: the farthest that a point has moved in this step, or INFINITY where that is not known. */
+double sweep_saw_farthest(const struct sim *sim);
+
 #endif
