@@ -1,4 +1,6 @@
-# What data/sweep and data/film share: work that is shared out over processes, machines, or Slurm. $self is the script that reads this.
+# shellcheck shell=sh disable=SC2154
+# What data/sweep and data/film share: work that is shared out over processes, machines, or Slurm. $self is
+# the script that reads this.
 
 fail() # EXIT MESSAGE
 {
@@ -19,8 +21,8 @@ find_program()
     realpath "$found"
 }
 
-# COMMAND... WORD for each word of stdin, JOBS at a time, by GNU parallel, or xargs where that is not installed. Whether all went
-# well is for what they leave to tell.
+# COMMAND... WORD for each word of stdin, JOBS at a time, by GNU parallel, or xargs where that is not
+# installed. Whether all went well is for what they leave to tell.
 run_each() # JOBS COMMAND...
 {
     at_a_time=$1
@@ -31,11 +33,13 @@ run_each() # JOBS COMMAND...
         # shellcheck disable=SC2086 # one word or none
         parallel --will-cite --quote $bar --jobs "$at_a_time" "$@" || true
     else
-        xargs -n 1 -P "$at_a_time" "$@" || true
+        # xargs would stop at a command that is killed; a shell between them tells it of a failure only
+        xargs -n 1 -P "$at_a_time" sh -c '"$@" || exit 1' sh "$@" || true
     fi
 }
 
-# An array job with a task for each number up to TASKS, whose script is stdin, in FOLDER; waits for its end. Its number is FOLDER/job.
+# An array job with a task for each number up to TASKS, whose script is stdin, in FOLDER; waits for its end.
+# Its number is FOLDER/job.
 run_by_slurm() # FOLDER TASKS
 {
     command -v sbatch >/dev/null || fail 1 "the program sbatch is not installed: on Debian, apt install slurm-client"

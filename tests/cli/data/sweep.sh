@@ -15,24 +15,34 @@ esac
 exec "$PROGRAMS/sim/balloon-sim" "\$@"
 END
 chmod +x bin/balloon-sim
-sweep() { BALLOON_SIM="$PWD/bin/balloon-sim" "$SWEEP" "$@"; }
+sweep() { PATH="$PWD/bin:$PATH" BALLOON_SIM="$PWD/bin/balloon-sim" "$SWEEP" "$@"; }
 
+killed_and_resumed() # SCENE --out DIR ...
+{
+    rm -f runs go-on
+    expect 1 sweep "$@"
+    stdout_has '^2 of 4 points are there; 1 failed, .* say why; 1 were not run to their end; the same command runs them again'
+    [ "$(wc -l <runs)" = 4 ] || fail "not 4 runs: $(cat runs)"
+    cut -f 1,2,7 "$3/sweep.tsv" >table
+    printf '%s\t%s\t%s\n' 'balloons[0].spring' time.step exit_status 20 0.02 0 20 0.05 137 40 0.02 nan 40 0.05 0 >wanted
+    same_file table wanted
+
+    touch go-on
+    expect 0 sweep "$@"
+    stdout_has '^4 of 4 points are there: '
+    sort runs | uniq -c | awk '{ print $1 }' | tr '\n' ' ' >counts
+    [ "$(cat counts)" = '1 2 2 1 ' ] || fail "runs of each point: $(cat counts)"
+    [ -z "$(ls "$3/work")" ] || fail "work was left behind"
+    expect 0 sweep "$@"
+    [ "$(wc -l <runs)" = 6 ] || fail "what was there was run again"
+}
+
+printf '#!/bin/sh\nexit 1\n' >bin/parallel # not GNU's
+chmod +x bin/parallel
+killed_and_resumed "$scene" --out "without parallel" --jobs 1 'balloons[0].spring=20:40:2' time.step=0.02:0.05:2 --set time.end=2
+rm bin/parallel
 set -- "$scene" --out "the sweep's" --jobs 1 'balloons[0].spring=20:40:2' time.step=0.02:0.05:2 --set time.end=2
-expect 1 sweep "$@"
-stdout_has '^2 of 4 points are there; 1 failed, .* say why; 1 were not run to their end; the same command runs them again'
-[ "$(wc -l <runs)" = 4 ] || fail "not 4 runs: $(cat runs)"
-cut -f 1,2,7 "the sweep's/sweep.tsv" >table
-printf '%s\t%s\t%s\n' 'balloons[0].spring' time.step exit_status 20 0.02 0 20 0.05 137 40 0.02 nan 40 0.05 0 >wanted
-same_file table wanted
-
-touch go-on
-expect 0 sweep "$@"
-stdout_has '^4 of 4 points are there: '
-sort runs | uniq -c | awk '{ print $1 }' | tr '\n' ' ' >counts
-[ "$(cat counts)" = '1 2 2 1 ' ] || fail "runs of each point: $(cat counts)"
-[ -z "$(ls "the sweep's/work")" ] || fail "work was left behind"
-expect 0 sweep "$@"
-[ "$(wc -l <runs)" = 6 ] || fail "what was there was run again"
+killed_and_resumed "$@"
 
 # a row says what a run of its own says
 expect 0 balloon-sim "$scene" --set 'balloons[0].spring=20' --set time.step=0.05 --set time.end=2 --pieces pieces.tsv --log log.tsv
