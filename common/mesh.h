@@ -92,7 +92,9 @@ enum status mesh_repair(struct mesh *mesh, struct mesh_report *report, struct er
 const char *mesh_report_repairs(const struct mesh_report *report, char *text, size_t size);
 
 /* Reads .ply (ASCII, both binary byte orders), .stl (ASCII and binary) or .obj, by extension; polygons are
- * cut into fans. *mesh, which must be {0} or a mesh, is replaced; after a failure it is as it was. Claimed
+ * cut into fans. Many other formats (.gltf, .dae, .fbx, .3ds, .off, ...) are read through assimp, where that library is
+ * installed (else STATUS_RESOURCE): all of the model's meshes where its scene puts them, without animation; about such
+ * files nothing is promised that the library does not. *mesh, which must be {0} or a mesh, is replaced; after a failure it is as it was. Claimed
  * counts are checked against the file's size before memory is asked for. Loaded positions are finite and
  * indices in range; there is at least one triangle. Normals come from PLY only, of unit length, and only
  * where every point has one. Errors, which name the file and its line or element: STATUS_FILE,
@@ -101,6 +103,10 @@ enum status mesh_load(const char *path, struct mesh *mesh, struct error *err);
 
 /* True when the name ends as those files do, upper or lower case. */
 bool mesh_is_file_name(const char *path);
+
+/* True when mesh_load() takes the file for a mesh: also by the extensions of formats that are left to assimp, whether it
+ * is there or not. */
+bool mesh_is_readable_name(const char *path);
 
 /* Writes .ply (binary little endian, positions to the bit; with normals where the mesh has them), .stl
  * (binary, positions rounded to float, no normals of points) or .obj (all digits), by extension. Errors:

@@ -3,7 +3,10 @@
 #include "common/mesh.h"
 #include "common/mesh_files.h"
 
+#include <errno.h>
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 static const struct {
     const char *extension;
@@ -29,17 +32,51 @@ bool mesh_is_file_name(const char *path)
     return format_of(path) < FORMATS;
 }
 
-enum status mesh_load(const char *path, struct mesh *mesh, struct error *err)
+/* Formats with meshes that assimp 5 reads (doc/Fileformats.md there), less those that other programs use for something else. */
+static const char *const foreign_extensions[] = {
+    "3ds", "3mf",  "ac",   "amf", "ase", "assbin", "b3d", "blend", "cob", "dae",     "dxf", "fbx",
+    "glb", "gltf", "hmp",  "ifc", "lwo", "lws",    "lxo", "md2",   "md3", "md5mesh", "mdl", "ms3d",
+    "nff", "off",  "ogex", "q3o", "q3s", "smd",    "ter", "x",     "x3d", "xgl",     "zgl",
+};
+
+static bool is_foreign(const char *path)
 {
-    const size_t i = format_of(path);
-    if (i == FORMATS)
-        return error_set(err, STATUS_INPUT, "%s: no known mesh file; must be .ply, .stl or .obj", path);
+    for (size_t i = 0; i < sizeof foreign_extensions / sizeof *foreign_extensions; i++)
+        if (file_has_extension(path, foreign_extensions[i]))
+            return true;
+    return false;
+}
+
+bool mesh_is_readable_name(const char *path)
+{
+    return mesh_is_file_name(path) || is_foreign(path);
+}
+
+static enum status load_own(const char *path, struct mesh *mesh, struct error *err)
+{
     struct bytes bytes = {0};
-    struct mesh loaded = {0};
     enum status status = file_read(path, &bytes, err);
     if (!status)
-        status = formats[i].read(&bytes, path, &loaded, err);
+        status = formats[format_of(path)].read(&bytes, path, mesh, err);
     bytes_clear(&bytes);
+    return status;
+}
+
+static enum status load_foreign(const char *path, struct mesh *mesh, struct error *err)
+{
+    if (access(path, R_OK)) /* of which assimp would not say why */
+        return error_set(err, STATUS_FILE, "%s: cannot open: %s", path, strerror(errno));
+    return mesh_read_foreign(path, mesh, err);
+}
+
+enum status mesh_load(const char *path, struct mesh *mesh, struct error *err)
+{
+    if (!mesh_is_readable_name(path))
+        return error_set(err, STATUS_INPUT,
+                         "%s: no known mesh file; must be .ply, .stl or .obj, or what assimp reads", path);
+    struct mesh loaded = {0};
+    enum status status = mesh_is_file_name(path) ? load_own(path, &loaded, err)
+                                                 : load_foreign(path, &loaded, err);
     if (!status && loaded.triangle_count == 0)
         status = error_set(err, STATUS_INPUT, "%s: the mesh has no triangles", path);
     if (status) {

@@ -47,7 +47,8 @@
     X(playback, NUMBER, 1, 240, "25", "1/s", FREE, "frames a second in the movie", "")
 
 #define SCENE_BALLOON_FIELDS(X)                                                                              \
-    X(mesh, TEXT, 0, 0, "", "file", 0, ".ply, .stl or .obj, relative to the scene file", "paper 3.4")        \
+    X(mesh, TEXT, 0, 0, "", "file", 0, ".ply, .stl, .obj, or what assimp reads; relative to the scene file", \
+      "paper 3.4")                                                                                           \
     X(radius, NUMBER, 0, 1e6, "45", "length", 0,                                                             \
       "mean distance of points from their centre; 0: as in the mesh", "")                                    \
     X(position, VECTOR, -1e6, 1e6, "[0.0, 0.0, 0.0]", "length", 0, "of that centre", "")                     \

@@ -38,7 +38,8 @@ enum option_key {
 static const struct argp_option option_list[] = {
     {"script", OPTION_SCRIPT, "FILE.chips", 0, "carve what the script says", 0},
     {"import", OPTION_IMPORT, "FILE", 0,
-     "begin with a MagicaVoxel model (.vox) or a closed mesh (.stl, .ply, .obj)", 0},
+     "begin with a MagicaVoxel model (.vox) or a closed mesh (.stl, .ply, .obj; through assimp .gltf, .dae, .fbx and others)",
+     0},
     {"depth", OPTION_DEPTH, "N", 0,
      "a new cube has 2^N cells a side, N from 0 to 10 (6); for a mesh from 2 (7)", 0},
     {"recover", OPTION_RECOVER, NULL, 0,
@@ -130,10 +131,12 @@ static enum status check_options(const struct options *options, struct error *er
     if (options->import && options->file)
         return error_set(err, STATUS_USAGE, "--import %s and %s: give one of them to begin with",
                          options->import, options->file);
-    const bool mesh = options->import && mesh_is_file_name(options->import);
+    const bool mesh = options->import && mesh_is_readable_name(options->import);
     if (options->import && !sculpt_import_is_name(options->import))
-        return error_set(err, STATUS_USAGE, "--import %s: .vox, .stl, .ply and .obj are read",
-                         options->import);
+        return error_set(
+            err, STATUS_USAGE,
+            "--import %s: .vox, .stl, .ply and .obj are read, and through assimp .gltf, .dae and others",
+            options->import);
     if (options->recover && !options->file)
         return error_set(err, STATUS_USAGE, "--recover: give the FILE.oct that was being carved");
     if (mesh && options->depth >= 0 && options->depth < VOXELISE_DEPTH_MIN)

@@ -13,8 +13,8 @@
 
 static enum status load_scene(const struct options *options, struct scene *scene, struct error *err)
 {
-    enum status status = mesh_is_file_name(options->scene) ? scene_from_mesh(options->scene, scene, err)
-                                                           : scene_load(options->scene, scene, err);
+    enum status status = mesh_is_readable_name(options->scene) ? scene_from_mesh(options->scene, scene, err)
+                                                               : scene_load(options->scene, scene, err);
     for (size_t i = 0; i < options->set_count && !status; i++)
         status = scene_set(scene, options->set[i], err);
     return status ? status : scene_check(scene, err);

@@ -140,7 +140,7 @@ _balloon()
         mapfile -t COMPREPLY < <(compgen -W "${options[*]}" -- "$current")
     elif [[ ${#options[@]} != 0 ]]; then
         case ${program##*/} in
-        balloon-sim) _balloon_files "$current" cfg ply stl obj ;;
+        balloon-sim) _balloon_files "$current" cfg ply stl obj gltf glb dae fbx 3ds off blend ;;
         *) _balloon_files "$current" oct ;;
         esac
     fi
