@@ -12,6 +12,7 @@ command_line='the newest version in data/CHANGELOG.md'
 grep -Eq "^## $version \([0-9]{4}-[0-9]{2}-[0-9]{2}\)\$" changelog || fail "it is not $VERSION: $(cat changelog)"
 date=$(sed -E 's/.*\((.*)\)/\1/' changelog)
 history_has data/CITATION.cff "^version: $version\$"
+history_has README.md "Balloon $version, "
 history_has data/CITATION.cff "^date-released: $date\$"
 history_has data/share/balloon.metainfo.xml.in "<release version=\"@VERSION@\" date=\"$date\"/>"
 head -n 1 "$SOURCE/data/debian/changelog" >debian
