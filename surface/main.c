@@ -249,6 +249,16 @@ static enum status report(struct mesh *mesh, const struct arguments *arguments, 
     return STATUS_OK;
 }
 
+/* What cannot be written is known before the work. */
+static enum status check_file(const char *target, struct error *err)
+{
+    struct file_out *trial;
+    if (file_out_open(target, &trial, err))
+        return err->status;
+    file_out_abandon(trial);
+    return STATUS_OK;
+}
+
 static enum status check_files(const struct arguments *arguments, struct error *err)
 {
     const char *targets[] = {arguments->output, arguments->render, arguments->cost};
@@ -256,7 +266,10 @@ static enum status check_files(const struct arguments *arguments, struct error *
         if (targets[i] && file_same(targets[i], arguments->input))
             return error_set(err, STATUS_FILE, "%s: is the sculpture itself; write to another file",
                              targets[i]);
-    return STATUS_OK;
+    if ((arguments->output && check_file(arguments->output, err)) ||
+        (arguments->render && check_file(arguments->render, err)))
+        return err->status;
+    return STATUS_OK; /* cost_check() knows the names of what it writes */
 }
 
 /* Where gnuplot is missing the table is still printed, and the failure told at the end. */

@@ -28,7 +28,7 @@ shorter='--set view.size=[96,48] --set view.rate=8'
 plots=png
 command -v gnuplot >/dev/null || plots=tsv
 fences sh | sed -E -e 's/--triangles [0-9]+/--triangles 3000/' -e 's/view\.samples=2/view.samples=1/' \
-    -e "/-cost /s/\.png/.$plots/" -e "/accuracy-cost/{s/octopus\.oct/small.oct/; s/octopus\.cfg/$calm/}" \
+    -e "/-cost /s/\.png/.$plots/" -e "/accuracy-cost/{s/octopus\.oct/small.oct/; s/octopus\.ply/$calm/}" \
     -e '/effect-cost/s/$/ --set time.end=0.05/' \
     -e "/^balloon-sim /s/\$/ $shorter/" >commands
 [ "$(wc -l <commands)" -ge 12 ] || fail "the page has $(wc -l <commands) commands"

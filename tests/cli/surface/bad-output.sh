@@ -6,6 +6,7 @@ refused 1 'cannot write: No space left' balloon-surface cube.oct -o full.ply
 refused 1 '/proc/a\.ply: cannot create' balloon-surface cube.oct -o /proc/a.ply
 refused 1 'no/such/a\.stl: cannot create' balloon-surface cube.oct -o no/such/a.stl
 refused 1 '/proc/a\.png: cannot create' balloon-surface cube.oct --render /proc/a.png
+refused 1 'no/such/a\.ply: cannot create' balloon-surface cube.oct --threshold 3 -o no/such/a.ply # before the work
 ln -s cube.oct same.ply
 refused 1 'same\.ply: is the sculpture itself' balloon-surface cube.oct -o same.ply
 same_file cube.oct kept.oct
