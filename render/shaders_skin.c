@@ -139,7 +139,9 @@ const char shader_latex_vertex[] =
 /*
  * A slab of index 1.52, exactly: Fresnel's F at either surface, Snell's angle inside, Beer and Lambert along the path,
  * and all inner reflections summed: T = (1 - F)^2 t / (1 - F^2 t^2), R = F (1 + T t) (Born and Wolf, "Principles of Optics",
- * 1.6, without interference). The mirror sees boxes and room, blurred by the roughness, with dark behind the skin, or
+ * 1.6, without interference). A rough surface that is seen at a grazing angle shows the facets that are turned to the eye: where slopes
+ * have a Gaussian distribution of roughness a (Beckmann's), the mean cosine of those that are seen is E(p^2)/E(p) = sqrt(pi) a/2 edge-on, over
+ * slopes p > 0; straight on it is 1. The mirror sees boxes and room, blurred by the roughness, with dark behind the skin, or
  * a grazing view would be as bright as glass. Inside a closed skin it sees them through the other wall.
  */
 #define LATEX                                                                                              \
@@ -153,9 +155,11 @@ const char shader_latex_vertex[] =
     "        n = normalize(n + (0.02 - facing) * to_eye);\n"                                               \
     "        facing = 0.02;\n"                                                                             \
     "    }\n"                                                                                              \
-    "    float inner = sqrt(1.0 - (1.0 - facing * facing) / 2.3104);\n"                                    \
-    "    float across = (facing - 1.52 * inner) / (facing + 1.52 * inner);\n"                              \
-    "    float along = (inner - 1.52 * facing) / (inner + 1.52 * facing);\n"                               \
+    "    float rough = min(0.886 * skin_roughness, 1.0);\n"                                                \
+    "    float turned = sqrt(mix(facing * facing, 1.0, rough * rough));\n"                                 \
+    "    float inner = sqrt(1.0 - (1.0 - turned * turned) / 2.3104);\n"                                    \
+    "    float across = (turned - 1.52 * inner) / (turned + 1.52 * inner);\n"                              \
+    "    float along = (inner - 1.52 * turned) / (inner + 1.52 * turned);\n"                               \
     "    float fresnel = 0.5 * (across * across + along * along);\n"                                       \
     "    float enters = 1.0 - fresnel;\n"                                                                  \
     "    vec3 t = exp(-skin_depth / inner);\n"                                                             \

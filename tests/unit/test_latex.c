@@ -72,6 +72,37 @@ static void what_is_opaque_at_rest_is_opaque(void **state)
     assert_near(middle_light(skins, 2), middle_light(skins + 1, 1), 1e-9);
 }
 
+/* What Fresnel says of an opaque slab: the share of its body's light that leaves it. */
+static double leaves(double cosine)
+{
+    const double inner = sqrt(1 - (1 - cosine * cosine) / (1.52 * 1.52));
+    const double across = (cosine - 1.52 * inner) / (cosine + 1.52 * inner),
+                 along = (inner - 1.52 * cosine) / (inner + 1.52 * cosine);
+    return 1 - (across * across + along * along) / 2;
+}
+
+/* A card that is seen 3 degrees from its edge, where the mirror shows the dark behind it. Smooth it is nearly black; of a rough one facets are seen that
+ * are turned to the eye, whose mean cosine edge-on is sqrt(pi)/2 of the roughness. One step of 255 in the smooth one's 20 is a tenth of its
+ * light. */
+static void rough_latex_is_not_black_at_its_rims(void **state)
+{
+    (void)state;
+    const double angle = 87 * M_PI / 180, at_edge = sqrt(M_PI) / 2 * sqrt(2.0 / 14);
+    double light[2];
+    for (int rough = 0; rough < 2; rough++) {
+        struct card card;
+        struct render_skin skin = card_at(&card, 0, 0.8f, 1, 1);
+        skin.rest_shininess = rough ? 12 : 10000;
+        for (int i = 0; i < 4; i++) {
+            card.position[i][2] = card.position[i][0] * sin(angle);
+            card.position[i][0] *= cos(angle);
+        }
+        light[rough] = middle_light(&skin, 1);
+    }
+    const double seen = hypot(cos(angle) * sqrt(1 - at_edge * at_edge), at_edge);
+    assert_near(light[1] / light[0], leaves(seen) / leaves(cos(angle)), 0.15 * light[1] / light[0]);
+}
+
 static int brightest(const struct image *image)
 {
     int most = 0;
@@ -290,6 +321,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(film_thins_by_the_law_of_beer_and_lambert),
         cmocka_unit_test(what_is_opaque_at_rest_is_opaque),
+        cmocka_unit_test(rough_latex_is_not_black_at_its_rims),
         cmocka_unit_test(stretched_latex_shines_more),
         cmocka_unit_test(a_torn_skin_loses_its_inner_light),
         cmocka_unit_test(lists_and_peeling_agree_and_sorting_nearly),
