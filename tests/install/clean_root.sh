@@ -11,12 +11,12 @@ skip()
 [ "$(id -u)" = 0 ] || skip 'not root'
 command -v debootstrap >/dev/null || skip 'debootstrap is not installed'
 [ -e "$SOURCE/.git" ] || skip 'no git checkout to make a package from'
-. /etc/os-release
-[ "$ID" = debian ] || skip "this is $ID and not Debian"
+release=$(. /etc/os-release && echo "$ID $VERSION_CODENAME")
+[ "${release% *}" = debian ] || skip "this is ${release% *} and not Debian"
 
 : >.stderr
 command_line='debootstrap'
-debootstrap --variant=minbase "$VERSION_CODENAME" root >.stdout 2>&1 || {
+debootstrap --variant=minbase "${release#* }" root >.stdout 2>&1 || {
     ! grep -q 'Failed getting release\|Unable to download' .stdout || skip 'the mirror of Debian cannot be reached'
     fail "it failed"
 }
