@@ -1,6 +1,7 @@
 #include "sim/jacobian.h"
 #include "common/array.h"
 #include "sim/jacobian_kernels.h"
+#include "sim/membrane.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -51,7 +52,10 @@ void sim_jacobian_close(struct sim *sim)
 static void linearise_part(struct sim *sim, const struct sim_part *part, void *context)
 {
     (void)context;
-    sim->jacobian->kernels->edges(sim, part);
+    if (part->balloon->membrane) /* which has products of its own: its edges serve the preconditioner */
+        membrane_stand_in(sim, part, sim->jacobian->edge);
+    else
+        sim->jacobian->kernels->edges(sim, part);
     if (sim_point_pressure(part->balloon) != 0)
         sim->jacobian->kernels->triangles(sim, part);
 }

@@ -32,7 +32,7 @@ void sim_linearise(struct sim *sim);
 void sim_force_product(struct sim *sim, double a, double (*dx)[4], double b, double (*dv)[4],
                        double (*df)[4]);
 
-/* The 3x3 diagonal blocks of M - a K - b D, M the masses, without the shares of effects: block[p][i][j], the fourth
+/* The 3x3 diagonal blocks of M - a K - b D, M the masses, without the shares of effects, but with a membrane's stand-ins (membrane.h): block[p][i][j], the fourth
  * numbers 0. [point_count], aligned to 32 bytes. */
 void sim_diagonal_blocks(struct sim *sim, double a, double b, double (*block)[3][4]);
 

@@ -169,7 +169,8 @@ static void product(struct sim *sim, const struct sim_part *part, const struct j
         const row n = {normal[p][0], normal[p][1], normal[p][2], 0};
         out[p] = product->a * normal[p][3] * (turn[p] - dot(n, turn[p]) * n);
     }
-    product_edges(sim, part, product);
+    if (!part->balloon->membrane)
+        product_edges(sim, part, product);
 }
 
 /* block += factor u g^T. */

@@ -4,6 +4,8 @@
 #include "common/vec3.h"
 #include "sim/membrane_kernels.h"
 
+#include <string.h>
+
 extern const struct membrane_kernels membrane_plain;
 #ifdef SIM_HAS_AVX2
 extern const struct membrane_kernels membrane_avx2;
@@ -168,4 +170,41 @@ double membrane_stiffness(const struct membrane_law *law, const double range[2])
                             stiffness_at(law, q1, fmin(low * pow(q1 / low, j / (double)STATES), q1)));
     }
     return margin * stiffest;
+}
+
+/* Springs k in equilateral triangles have the modulus 3 sqrt 3/4 k along a line; edge_weight is 1/sqrt 3 there. */
+static const double springs_share = 4 / 3.0;
+
+/* As if the skin were stretched both ways as much as the edge. What is shorter than at rest counts as at rest, and there is an end. */
+static void stand_in_for_edge(const struct membrane *m, double stretch, double weight, const double u[3],
+                              double row[8])
+{
+    const double q = pow(fmin(fmax(stretch, 1), 1e3), 2), scale = weight * m->modulus * m->thickness;
+    const struct membrane_response w = m->kernels->respond(&m->law, 2 * q, q * q, 0);
+    const double across = scale * fmax(2 * (w.a + q * w.d), 0),
+                 along = springs_share * scale * fmax(4 * q * (w.aa + 2 * q * w.ad + q * q * w.dd), 0);
+    for (int i = 0; i < 3; i++) {
+        row[i] = u[i];
+        row[4 + i] = along * u[i];
+    }
+    row[3] = across;
+    row[7] = springs_share * weight * m->viscosity * m->thickness;
+}
+
+void membrane_stand_in(const struct sim *sim, const struct sim_part *part, double (*edge)[8])
+{
+    const struct sim_balloon *b = part->balloon;
+    for (uint32_t e = part->edge_begin; e < part->edge_end; e++) {
+        const uint32_t *p = sim->edge_point[e];
+        double u[3];
+        vec3_sub(sim->position[p[0]], sim->position[p[1]], u);
+        const double length = vec3_length(u);
+        memset(edge[e], 0, sizeof edge[e]);
+        if (!sim->edge_active[e] || length == 0)
+            continue;
+        for (int i = 0; i < 3; i++)
+            u[i] /= length;
+        stand_in_for_edge(b->membrane, length / sim->rest_length[e],
+                          b->membrane->edge_weight[e - b->edge_begin], u, edge[e]);
+    }
 }

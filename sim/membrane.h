@@ -73,6 +73,11 @@ double membrane_scale(const struct sim_balloon *balloon);
  * forces change by at most this x mu x thickness x edge_weight along each edge, as springs do. */
 double membrane_stiffness(const struct membrane_law *law, const double range[2]);
 
+/* Sets edge[e] of the part's own edges to a spring's and a damper's derivatives (jacobian_kernels.h) that resist about as much as the
+ * membrane does there, never less than 0: for preconditioners. In a sheet of equilateral triangles at rest they are as stiff along a line
+ * as the membrane. */
+void membrane_stand_in(const struct sim *sim, const struct sim_part *part, double (*edge)[8]);
+
 /* Energy held by all the balloon's active triangles, and what their damping takes a second; added up in an order that does not depend
  * on the number of workers. */
 double membrane_elastic(struct sim *sim, const struct sim_balloon *balloon);

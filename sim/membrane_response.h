@@ -175,6 +175,10 @@ full_response(const struct membrane_law *law, enum membrane_kind kind, struct st
     return w;
 }
 
+/* The least r by which second derivatives are divided, twice and thrice: what cancels there leaves rounding errors of 1e-16/r^2, the size of the
+ * derivatives themselves at rest, where r is rounding. Where the stretches are nearer to each other than this they come out too small. */
+#define WRINKLED_APART 1e-5
+
 /*
  * The energy of a pull along L1 alone, w(q) = W(q + q^-1/2, q^1/2) with q = L1^2, the larger eigenvalue (a + r)/2, r = L1^2 - L2^2:
  *     w' = W_a + q2 W_D (since L2 is where W is least),   w'' = dw'/dq + dw'/dq2 dq2/dq,   q2 = q^-1/2,
@@ -198,7 +202,7 @@ static inline __attribute__((always_inline)) struct response wrinkled_response(c
         const lanes by_q = w.aa + q2 * (2 * w.ad + q2 * w.dd);
         const lanes by_q2 = w.aa + (q + q2) * w.ad + root * w.dd + w.d;
         const lanes second = lanes_select(taut, by_q - .5 * q2 * (1 / q) * by_q2, lanes_all(0));
-        const lanes i2 = i * i, turning = first * i2 * i;
+        const lanes j = lanes_min(i, lanes_all(1 / WRINKLED_APART)), i2 = j * j, turning = first * i2 * j;
         out.aa = second * true_q * true_q * i2 - 2 * turning * s.d;
         out.ad = -second * true_q * i2 + turning * s.a;
         out.dd = second * i2 - 2 * turning;

@@ -326,6 +326,33 @@ static void the_solver_solves_what_is_not_symmetric(void **state)
     close_balloon(&b);
 }
 
+/* In a skin that is pulled and has been shaken. Without the membrane's share in the preconditioner six digits take 39 iterations, with it
+ * 19. */
+static void the_solver_knows_of_a_membrane(void **state)
+{
+    (void)state;
+    struct balloon b;
+    struct error err = {0};
+    struct solver solver = {0};
+    open_balloon(&b, 3,
+                 SETTINGS("balloons[0].pressure=0", "balloons[0].membrane.thickness=1",
+                          "balloons[0].membrane.shear_modulus=2000", "balloons[0].membrane.viscosity=20",
+                          "time.integrator=bdf2"));
+    struct sim *sim = &b.sim;
+    uint64_t random = 7;
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        for (int i = 0; i < 3; i++)
+            sim->position[p][i] *= 1.5 + 0.05 * random_unit(&random);
+    assert_ok(solver_open(sim, &solver, &err), &err);
+    sim_forces(sim);
+    sim_linearise(sim);
+    solver_prepare(sim, &solver, 0.1 * 0.1, 0.1);
+    assert_true(solver_solve(sim, &solver, sim->force, sim->scratch[0], 1e-6));
+    assert_true(solver.iterations < 28);
+    solver_close(&solver);
+    close_balloon(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -341,6 +368,7 @@ int main(void)
         cmocka_unit_test(xpbd_says_what_step_it_can_take),
         cmocka_unit_test(what_has_no_solution_is_refused_with_time_and_point),
         cmocka_unit_test(the_solver_solves_what_is_not_symmetric),
+        cmocka_unit_test(the_solver_knows_of_a_membrane),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

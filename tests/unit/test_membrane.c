@@ -1,5 +1,6 @@
 /* The membrane's forces against its energy, its derivatives against its forces, and both against what must not matter. */
 #include "balloon.h"
+#include "common/vec3.h"
 #include "differences.h"
 #include "sim/guard.h"
 #include "sim/jacobian.h"
@@ -104,6 +105,38 @@ static void products_are_the_differences_of_the_forces(void **state)
             snprintf(law, sizeof law, "balloons[0].membrane.law=%s", laws[i]);
             check_products(RUBBER(law), shapes[k]);
         }
+}
+
+/* At rest a skin is about to wrinkle, with stretches that are equal up to rounding, and what is divided by their difference must not show:
+ * however little it was shaken, |dx . K dx| is at most what the guard's springs make of dx. */
+static void products_are_no_larger_than_the_bound_near_rest(void **state)
+{
+    (void)state;
+    for (double size = 1e-16; size < 1e-2; size *= 10) {
+        struct balloon b;
+        uint64_t random = 5;
+        open_balloon(&b, 2, RUBBER());
+        struct sim *sim = &b.sim;
+        const struct membrane *m = sim->balloons->membrane;
+        fill(sim->position, sim->point_count, size, &random);
+        assert_ok(sim_jacobian_open(sim, &(struct error){0}), &(struct error){0});
+        rows dx = new_rows(sim), df = new_rows(sim);
+        fill(dx, sim->point_count, 1, &random);
+        sim_force_product(sim, 1, dx, 0, dx, df);
+        const double range[2] = {2.5, 0.8};
+        double work = 0, most = 0, d[3];
+        for (uint32_t p = 0; p < sim->point_count; p++)
+            work += vec3_dot(dx[p], df[p]);
+        for (uint32_t e = 0; e < sim->edge_count; e++) {
+            vec3_sub(dx[sim->edge_point[e][0]], dx[sim->edge_point[e][1]], d);
+            most += membrane_stiffness(&m->law, range) * m->edge_weight[e] * vec3_dot(d, d);
+        }
+        assert_true(fabs(work) <= most);
+        free(dx);
+        free(df);
+        sim_jacobian_close(sim);
+        close_balloon(&b);
+    }
 }
 
 static void products_of_the_damping_are_the_differences_of_its_forces(void **state)
@@ -349,6 +382,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(forces_are_the_slope_of_the_energy),
         cmocka_unit_test(products_are_the_differences_of_the_forces),
+        cmocka_unit_test(products_are_no_larger_than_the_bound_near_rest),
         cmocka_unit_test(products_of_the_damping_are_the_differences_of_its_forces),
         cmocka_unit_test(results_are_equal_for_any_number_of_threads),
         cmocka_unit_test(a_membrane_that_only_turns_holds_nothing),
