@@ -328,7 +328,10 @@ static double energy(struct sim *sim, struct sim_balloon *b)
     if (gas->memory.gone)
         return 0;
     const struct gas_holes holes = gas->holes;
-    const double volume = volume_now(sim, b);
+    double volume = volume_now(sim, b);
+    if (!(volume >
+          least_volume * gas->rest_volume)) /* all went in one step: it is what the last forces found */
+        volume = gas->volume;
     gas->holes = holes;
     return gas_energy(gas_amount(sim, gas), volume, sim->scalar[gas->scalar + GAS_ENTROPY], gas->g,
                       gas->scene->ambient);

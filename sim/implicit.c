@@ -188,13 +188,15 @@ static enum status give_up(struct sim *sim, double dt, struct error *err)
     while (b + 1 < sim->balloon_count && m->worst_point >= sim->balloons[b].point_end)
         b++;
     const double *x = sim->position[m->worst_point];
+    const bool chosen = sim->acting != sim->integrator;
     return error_set(
         err, STATUS_DIVERGED,
-        "%s: diverged at time %g (step %llu): %s finds no solution even over %.3g s, a 1024th of "
+        "%s: diverged at time %g (step %llu): %s%s%s%s finds no solution even over %.3g s, a 1024th of "
         "the step of %g; furthest from one is point %u of balloons[%zu] at (%g, %g, %g), by an "
         "acceleration of %.3g; forces that change this fast want another integrator, or other "
         "springs, masses or pressure",
-        sim->scene->path, sim->time, (unsigned long long)sim->steps, sim->integrator->name,
+        sim->scene->path, sim->time, (unsigned long long)sim->steps, sim->acting->name,
+        chosen ? " (chosen by " : "", chosen ? sim->integrator->name : "", chosen ? ")" : "",
         dt / (1 << HALVINGS_MAX), dt, m->worst_point - sim->balloons[b].point_begin, b, x[0], x[1], x[2],
         m->worst * (1 << HALVINGS_MAX) / dt);
 }

@@ -326,6 +326,21 @@ static void the_solver_solves_what_is_not_symmetric(void **state)
     close_balloon(&b);
 }
 
+/* Where another method chose the one that fails, both are named. */
+static void who_finds_no_solution_is_named_with_who_chose_it(void **state)
+{
+    (void)state;
+    struct balloon b;
+    struct error err = {0};
+    open_with(&b, "bdf2", 0.1, SETTINGS("balloons[0].pressure=1"));
+    b.sim.current_spring_const[7] = NAN;
+    b.sim.integrator = integrator_find("auto");
+    assert_refused(b.sim.acting->advance(&b.sim, 0.1, &err), STATUS_DIVERGED,
+                   "bdf2 (chosen by auto) finds no solution", &err);
+    b.sim.integrator = b.sim.acting; /* whose own is closed */
+    close_balloon(&b);
+}
+
 /* In a skin that is pulled and has been shaken. Without the membrane's share in the preconditioner six digits take 39 iterations, with it
  * 19. */
 static void the_solver_knows_of_a_membrane(void **state)
@@ -368,6 +383,7 @@ int main(void)
         cmocka_unit_test(xpbd_says_what_step_it_can_take),
         cmocka_unit_test(what_has_no_solution_is_refused_with_time_and_point),
         cmocka_unit_test(the_solver_solves_what_is_not_symmetric),
+        cmocka_unit_test(who_finds_no_solution_is_named_with_who_chose_it),
         cmocka_unit_test(the_solver_knows_of_a_membrane),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
