@@ -78,6 +78,7 @@ static void find_reach(struct sim *sim)
             energy += membrane_elastic(sim, b);
             scale += membrane_scale(b);
         }
+    energy += fmax(effects_energy(sim), 0); /* what bent skins and taut strings hold, too */
     memory->least = 1e-12 * scale;
     memory->reach = fmax(memory->reach, sqrt(2 * energy));
 }
