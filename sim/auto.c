@@ -9,6 +9,7 @@
 #include "sim/auto.h"
 #include "sim/guard.h"
 #include "sim/methods.h"
+#include "sim/rkn4.h"
 #include "sim/trial.h"
 #include "sim/weights.h"
 
@@ -112,10 +113,18 @@ struct option {
     struct trial_result result;
 };
 
-static struct option untried(int candidate, double parts)
+/* Evaluations of a step, as far as one knows before a trial; one of rkn4 for nothing would cost more than all others together. */
+static double least_work(const struct sim *sim, int candidate)
 {
-    const double evaluations = candidates[candidate]->evaluations;
-    const double least = evaluations > 0 ? evaluations : TRIAL_IMPLICIT_LEAST;
+    const struct integrator *method = candidates[candidate];
+    if (method == &integrator_rkn4)
+        return rkn4_evaluations(sim);
+    return method->evaluations > 0 ? method->evaluations : TRIAL_IMPLICIT_LEAST;
+}
+
+static struct option untried(const struct sim *sim, int candidate, double parts)
+{
+    const double least = least_work(sim, candidate);
     return (struct option){candidate, parts, {INFINITY, parts <= GUARD_PARTS_MAX ? least * parts : INFINITY}};
 }
 
@@ -134,12 +143,13 @@ static void try_option(struct sim *sim, struct option *option)
 }
 
 /* In how many more parts it would keep the tolerance, by its order; of errors near the radius that says little. */
-static struct option split_further(const struct option *option, double tolerance, double most)
+static struct option split_further(const struct sim *sim, const struct option *option, double tolerance,
+                                   double most)
 {
     const double error = option->result.error, farthest = error < 1e-2 ? INFINITY : 8;
     const double missing = pow(error / tolerance, 1.0 / candidates[option->candidate]->order);
     const double parts = ceil(option->parts * fmin(fmax(1.1 * missing, 1.25), farthest));
-    return untried(option->candidate, parts <= most ? parts : INFINITY);
+    return untried(sim, option->candidate, parts <= most ? parts : INFINITY);
 }
 
 /* The one with the least work; of those that are within a tenth of it the one of the highest order, whose errors are less. */
@@ -167,7 +177,7 @@ static struct option find_best(struct sim *sim)
     struct option next[CANDIDATES], nearest = {.parts = 1, .result = {INFINITY, INFINITY}};
     double most[CANDIDATES];
     for (int i = 0; i < CANDIDATES; i++) {
-        next[i] = untried(i, m->is_open[i] ? fewest_parts(sim, i) : INFINITY);
+        next[i] = untried(sim, i, m->is_open[i] ? fewest_parts(sim, i) : INFINITY);
         most[i] = PARTS_MORE * next[i].parts;
         if (sim->next_change == m->memory.change)
             next[i].result.work = fmax(next[i].result.work, m->memory.spent[i] / 2);
@@ -182,7 +192,7 @@ static struct option find_best(struct sim *sim)
             nearest = *cheapest;
         m->memory.spent[cheapest->candidate] = cheapest->result.work;
         if (!(cheapest->result.error <= tolerance))
-            *cheapest = split_further(cheapest, tolerance, most[cheapest->candidate]);
+            *cheapest = split_further(sim, cheapest, tolerance, most[cheapest->candidate]);
     }
     return nearest;
 }

@@ -125,6 +125,11 @@ static bool is_damped(const struct sim *sim)
     return false;
 }
 
+int rkn4_evaluations(const struct sim *sim)
+{
+    return is_damped(sim) ? RKN4_KICKS * STAGES : integrator_rkn4.evaluations;
+}
+
 static enum status advance(struct sim *sim, double dt, struct error *err)
 {
     (void)err;
