@@ -350,7 +350,7 @@ static void a_mesh_without_triangles_and_files_of_other_kinds_are_refused(void *
     assert_text_refused("ply\nformat ascii 1.0\n" POINTS
                         "element face 0\nproperty list uchar int vertex_indices\nend_header\n" SQUARE,
                         "a.ply: the mesh has no triangles");
-    assert_refused(mesh_load("a.off", &mesh, &err), STATUS_INPUT, "a.off: no known mesh file; must be .ply",
+    assert_refused(mesh_load("a.txt", &mesh, &err), STATUS_INPUT, "a.txt: no known mesh file; must be .ply",
                    &err);
     assert_refused(mesh_load("ply", &mesh, &err), STATUS_INPUT, "ply: no known mesh file", &err);
     assert_refused(mesh_load("none.ply", &mesh, &err), STATUS_FILE, "none.ply: cannot open", &err);
