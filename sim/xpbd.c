@@ -254,7 +254,7 @@ static enum status xpbd(struct sim *sim, double dt, struct error *err)
 const struct integrator integrator_xpbd = {
     .name = "xpbd",
     .order = 1,
-    .flags = INTEGRATOR_IMPLICIT,
+    .flags = INTEGRATOR_IMPLICIT | INTEGRATOR_SPRINGS_ONLY,
     .vectors = 1,
     .oscillation_limit = INFINITY,
     .decay_limit = INFINITY,

@@ -17,6 +17,11 @@ stdout_has '^# references: .* and .* extrapolated: they agree to [0-9.e-]+, [0-9
 stdout_has '^# auto at time.tolerance=1e-05 \(.*substep.*\): [0-9.]+ x the time of the fastest'
 only_files cube.oct cube.ply cost.tsv
 
+# a membrane is nothing for a method that moves springs
+expect 0 balloon-sim cube.ply $calm --set time.end=0.1 --set balloons[0].membrane.thickness=0.5 --accuracy-cost skin.tsv
+stdout_has '^# failed: xpbd at .*: moves springs only$'
+grep -q '^xpbd' skin.tsv && fail "a row of xpbd on a membrane"
+
 # the setting is what --set takes
 setting=$(awk -F'\t' '$1 == "verlet" { print $2; exit }' cost.tsv)
 expect 0 balloon-sim cube.ply $calm --set time.integrator=verlet --set "$setting" --log v.tsv
