@@ -113,6 +113,19 @@ static void fail_call(struct every *every, long number)
     snapshot_clear(&now);
 }
 
+/* `limit` of those that the undisturbed run counted, which ended with that status. */
+static void fail_calls(struct every *every, int undisturbed, const char *kinds, long limit)
+{
+    const long count = every->failing->count, most = limit < count ? limit : count;
+    if (undisturbed || read_words(every) != WORDS_NONE)
+        complain(every, undisturbed, "undisturbed, wanted 0 and no message", "");
+    snapshot_restore(&every->before, &every->after);
+    for (long i = 0; i < most && every->problems < PROBLEMS_MAX; i++)
+        fail_call(every, 1 + i * count / most);
+    printf("%s: %ld of %ld calls failed in turn (%s), %ld problems\n", every->program, most, count, kinds,
+           every->problems);
+}
+
 static void share(struct every *every)
 {
     const int file = memfd_create("failing", 0);
@@ -137,25 +150,21 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: every_call LIBRARY MOST files|memory|starts[,lasting] PROGRAM ARGUMENT...\n");
         return 2;
     }
-    struct every every = {.command = argv + 4, .program = basename(strdup(argv[4])), .library = argv[1]};
+    char *path = strdup(argv[4]);
+    struct every every = {.command = argv + 4, .program = basename(path), .library = argv[1]};
     share(&every);
     every.failing->kinds = kind_of(argv[3]);
     every.failing->lasting = strstr(argv[3], "lasting");
     fclose(fopen(".stdout", "w"));
     every.before = snapshot_take();
     const int undisturbed = run(&every, 0);
-    const long count = every.failing->count, most = atol(argv[2]) < count ? atol(argv[2]) : count;
     every.after = snapshot_take();
-    if (undisturbed == SUPERVISE_UNABLE) {
+    if (undisturbed == SUPERVISE_UNABLE)
         printf("the kernel does not let a test decide on a program's system calls\n");
-        return SKIPPED;
-    }
-    if (undisturbed || read_words(&every) != WORDS_NONE)
-        complain(&every, undisturbed, "undisturbed, wanted 0 and no message", "");
-    snapshot_restore(&every.before, &every.after);
-    for (long i = 0; i < most && every.problems < PROBLEMS_MAX; i++)
-        fail_call(&every, 1 + i * count / most);
-    printf("%s: %ld of %ld calls failed in turn (%s), %ld problems\n", every.program, most, count, argv[3],
-           every.problems);
-    return every.problems > 0;
+    else
+        fail_calls(&every, undisturbed, argv[3], atol(argv[2]));
+    snapshot_clear(&every.before);
+    snapshot_clear(&every.after);
+    free(path);
+    return undisturbed == SUPERVISE_UNABLE ? SKIPPED : every.problems > 0;
 }
