@@ -4,7 +4,7 @@
 
 #include "check.h"
 #include "common/random.h"
-#include "sim/sim.h"
+#include "sim/jacobian.h"
 
 typedef double (*rows)[4];
 
@@ -69,6 +69,24 @@ static inline void difference(struct sim *sim, double h, rows dx, rows dv, rows 
         shift(df, sim->point_count, difference_weight[k] / (12 * h), f);
     }
     free(f);
+}
+
+/* How far K dx + D dv is from that, at the most, along a random direction; *size becomes the largest of its numbers. */
+static inline double product_error(struct sim *sim, double h, uint64_t *random, double *size)
+{
+    rows dx = new_rows(sim), dv = new_rows(sim), exact = new_rows(sim), near = new_rows(sim);
+    fill(dx, sim->point_count, 1, random);
+    fill(dv, sim->point_count, 1, random);
+    difference(sim, h, dx, dv, near);
+    sim_force_product(sim, 1, dx, 1, dv, exact);
+    *size = largest(exact, sim->point_count);
+    shift(exact, sim->point_count, -1, near);
+    const double error = largest(exact, sim->point_count);
+    free(dx);
+    free(dv);
+    free(exact);
+    free(near);
+    return error;
 }
 
 /* Of an energy, along dx. */
