@@ -6,6 +6,7 @@
 #include "common/plot.h"
 #include "common/threads.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -141,16 +142,48 @@ static const char *table_name(struct argp_state *state, const char *option, cons
     return argument;
 }
 
+/* Options that are a name or a yes, and no more. */
+static const struct {
+    int key;
+    size_t field; /* a const char * of struct options */
+} name_options[] = {{OPTION_FRAMES, offsetof(struct options, frames)},
+                    {OPTION_MOVIE, offsetof(struct options, movie)},
+                    {OPTION_LOG, offsetof(struct options, log)},
+                    {OPTION_CHECKPOINT, offsetof(struct options, checkpoint)},
+                    {OPTION_RESUME, offsetof(struct options, resume)},
+                    {OPTION_PLOT, offsetof(struct options, plot)},
+                    {OPTION_SERIES, offsetof(struct options, series)},
+                    {OPTION_PIECES, offsetof(struct options, pieces)}};
+static const struct {
+    int key;
+    size_t field; /* a bool of struct options */
+} flag_options[] = {{OPTION_ESTIMATE, offsetof(struct options, estimate)},
+                    {OPTION_HASH, offsetof(struct options, hash)},
+                    {OPTION_CHECK, offsetof(struct options, check)},
+                    {OPTION_EXPLAIN, offsetof(struct options, explain)},
+                    {OPTION_HELP_SCENE, offsetof(struct options, help_scene)},
+                    {OPTION_SERIES_CONSTANT, offsetof(struct options, series_constant)},
+                    {OPTION_WINDOW, offsetof(struct options, window)}};
+
+static bool parse_plain(struct options *o, int key, const char *argument)
+{
+    for (size_t i = 0; i < sizeof name_options / sizeof name_options[0]; i++)
+        if (name_options[i].key == key) {
+            *(const char **)((char *)o + name_options[i].field) = argument;
+            return true;
+        }
+    for (size_t i = 0; i < sizeof flag_options / sizeof flag_options[0]; i++)
+        if (flag_options[i].key == key)
+            return *(bool *)((char *)o + flag_options[i].field) = true;
+    return false;
+}
+
 static error_t parse_option(int key, char *argument, struct argp_state *state)
 {
     struct options *o = state->input;
+    if (parse_plain(o, key, argument))
+        return 0;
     switch (key) {
-    case OPTION_FRAMES:
-        o->frames = argument;
-        break;
-    case OPTION_MOVIE:
-        o->movie = argument;
-        break;
     case OPTION_SHEET:
         command_extension(state, "--contact-sheet", argument, "png");
         o->sheet = argument;
@@ -160,20 +193,8 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         if (argument)
             o->turntable_frames = command_whole(state, "--turntable", argument, 1, 1000000);
         break;
-    case OPTION_LOG:
-        o->log = argument;
-        break;
-    case OPTION_CHECKPOINT:
-        o->checkpoint = argument;
-        break;
     case OPTION_CHECKPOINT_EVERY:
         o->checkpoint_every = command_number(state, "--checkpoint-every", argument, 0, 1e9);
-        break;
-    case OPTION_RESUME:
-        o->resume = argument;
-        break;
-    case OPTION_ESTIMATE:
-        o->estimate = true;
         break;
     case OPTION_ACCURACY_COST:
         o->accuracy_cost = table_name(state, "--accuracy-cost", argument);
@@ -189,45 +210,18 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
     case OPTION_THREADS:
         o->threads = (unsigned)command_whole(state, "--threads", argument, 1, THREADS_MAX);
         break;
-    case OPTION_HASH:
-        o->hash = true;
-        break;
     case OPTION_SET:
         o->set[o->set_count++] = argument;
-        break;
-    case OPTION_CHECK:
-        o->check = true;
-        break;
-    case OPTION_EXPLAIN:
-        o->explain = true;
-        break;
-    case OPTION_HELP_SCENE:
-        o->help_scene = true;
-        break;
-    case OPTION_PLOT:
-        o->plot = argument;
-        break;
-    case OPTION_SERIES:
-        o->series = argument;
         break;
     case OPTION_SERIES_FORMAT:
         o->series_vtp = !strcmp(argument, "vtp");
         if (!o->series_vtp && strcmp(argument, "ply"))
             argp_error(state, "--mesh-series-format %s: must be ply or vtp", argument);
         break;
-    case OPTION_SERIES_CONSTANT:
-        o->series_constant = true;
-        break;
     case OPTION_CACHE:
         if (!file_has_extension(argument, "pc2"))
             argp_error(state, "--point-cache %s: the name must end in .pc2", argument);
         o->cache = argument;
-        break;
-    case OPTION_PIECES:
-        o->pieces = argument;
-        break;
-    case OPTION_WINDOW:
-        o->window = true;
         break;
     case 'q':
         command_set_quiet(true);

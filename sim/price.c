@@ -1,11 +1,9 @@
 #include "sim/price.h"
-#include "common/plot.h"
 #include "sim/price_file.h"
 #include "sim/price_plot.h"
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static void print_rows(const struct accuracy_table *table, FILE *stream)
@@ -96,30 +94,21 @@ static void print_table(const void *context, FILE *stream)
         print_failure(&table->failures[i], stream);
 }
 
-/* With a progress bar. */
-static enum status measure(const struct scene *scene, const struct mesh *meshes, struct accuracy_table *table,
+static enum status measure(const struct scene *scene, const struct mesh *meshes, void *table,
                            struct error *err)
 {
     const struct accuracy_options options = {.seconds = PRICE_SECONDS, .go_on = price_go_on};
-    price_watch();
-    return price_watched(accuracy_measure(scene, meshes, &options, table, err), err);
+    return accuracy_measure(scene, meshes, &options, table, err);
+}
+
+static enum status draw(const void *table, const char *scene, const char *path, struct error *err)
+{
+    return price_plot(table, scene, path, err);
 }
 
 enum status price_accuracy(const struct scene *scene, const struct mesh *meshes, const char *path,
                            struct error *err)
 {
-    struct accuracy_table *table = calloc(1, sizeof *table);
-    struct price_file file;
-    enum status status = price_file_open(&file, path, err);
-    if (!status && !table)
-        status = error_no_memory(err, "the table");
-    if (!status)
-        status = measure(scene, meshes, table, err);
-    if (!status)
-        status = price_file_save(&file, print_table, table, err);
-    if (!status && plot_is_file_name(path))
-        status = price_plot(table, scene->path, path, err);
-    free(table);
-    price_file_close(&file);
-    return status;
+    static const struct price_kind kind = {sizeof(struct accuracy_table), measure, print_table, draw};
+    return price_make(&kind, scene, meshes, path, err);
 }

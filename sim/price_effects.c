@@ -4,7 +4,6 @@
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
 
 static void print_row(const char *name, double share, double seconds, double bytes, const double change[3],
                       double first_break, uint32_t pieces, uint64_t steps, FILE *stream)
@@ -40,9 +39,9 @@ static void print_table(const void *context, FILE *stream)
 }
 
 /* Shares of the time, and beside them how much the answer changes. */
-static enum status draw(const struct effect_cost_table *table, const char *scene, const char *path,
-                        struct error *err)
+static enum status draw(const void *context, const char *scene, const char *path, struct error *err)
 {
+    const struct effect_cost_table *table = context;
     double share[EFFECT_COST_ROWS_MAX], change[EFFECT_COST_ROWS_MAX];
     const char *name[EFFECT_COST_ROWS_MAX];
     size_t count = 0;
@@ -70,32 +69,18 @@ static enum status draw(const struct effect_cost_table *table, const char *scene
     return plot_save(&plot, path, err);
 }
 
-static enum status measure(const struct scene *scene, const struct mesh *meshes,
-                           struct effect_cost_table *table, struct error *err)
+static enum status measure(const struct scene *scene, const struct mesh *meshes, void *table,
+                           struct error *err)
 {
     const struct effect_cost_options options = {.seconds = PRICE_SECONDS, .go_on = price_go_on};
-    price_watch();
-    return price_watched(effect_cost_measure(scene, meshes, &options, table, err), err);
+    return effect_cost_measure(scene, meshes, &options, table, err);
 }
 
 enum status price_effects(const struct scene *scene, const struct mesh *meshes, const char *path,
                           struct error *err)
 {
-    struct effect_cost_table *table = calloc(1, sizeof *table);
-    struct price_file file;
-    enum status status = price_file_open(&file, path, err);
-    if (!status && effects_count(scene) == 0)
-        status = error_set(err, STATUS_INPUT, "%s: has no effects: there is nothing to leave out",
-                           scene->path);
-    if (!status && !table)
-        status = error_no_memory(err, "the table");
-    if (!status)
-        status = measure(scene, meshes, table, err);
-    if (!status)
-        status = price_file_save(&file, print_table, table, err);
-    if (!status && plot_is_file_name(path))
-        status = draw(table, scene->path, path, err);
-    free(table);
-    price_file_close(&file);
-    return status;
+    static const struct price_kind kind = {sizeof(struct effect_cost_table), measure, print_table, draw};
+    if (effects_count(scene) == 0)
+        return error_set(err, STATUS_INPUT, "%s: has no effects: there is nothing to leave out", scene->path);
+    return price_make(&kind, scene, meshes, path, err);
 }

@@ -8,35 +8,33 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum status price_file_open(struct price_file *file, const char *path, struct error *err)
+/* The table's name is path's, ending in .tsv; NULL: no memory. */
+static char *table_name(const char *path)
+{
+    char *name = strdup(path);
+    if (name)
+        memcpy(name + strlen(path) - 3, "tsv", 3);
+    return name;
+}
+
+static enum status probe(const char *path, const char *table_path, struct error *err)
 {
     struct file_out *out = NULL;
-    file->table = strdup(path);
-    if (!file->table)
-        return error_no_memory(err, "the table");
-    memcpy(file->table + strlen(path) - 3, "tsv", 3);
     enum status status = plot_is_file_name(path) ? plot_check(path, err) : STATUS_OK;
     if (!status)
-        status = file_out_open(file->table, &out, err);
+        status = file_out_open(table_path, &out, err);
     file_out_abandon(out);
     return status;
 }
 
-enum status price_file_save(const struct price_file *file, void (*print)(const void *table, FILE *stream),
-                            const void *table, struct error *err)
+static enum status save(const struct price_kind *kind, const void *table, const char *path, struct error *err)
 {
     struct file_out *out;
-    print(table, stdout);
-    if (file_out_open(file->table, &out, err))
+    kind->print(table, stdout);
+    if (file_out_open(path, &out, err))
         return err->status;
-    print(table, file_out_stream(out));
+    kind->print(table, file_out_stream(out));
     return file_out_commit(out, err);
-}
-
-void price_file_close(struct price_file *file)
-{
-    free(file->table);
-    *file = (struct price_file){0};
 }
 
 bool price_go_on(void *context, double done)
@@ -46,16 +44,33 @@ bool price_go_on(void *context, double done)
     return !interrupt_caught();
 }
 
-void price_watch(void)
+/* With a progress bar. */
+static enum status measure(const struct price_kind *kind, const struct scene *scene,
+                           const struct mesh *meshes, void *table, struct error *err)
 {
     interrupt_watch();
     progress_begin("pricing", "%", 100);
-}
-
-enum status price_watched(enum status status, struct error *err)
-{
+    enum status status = kind->measure(scene, meshes, table, err);
     progress_end();
     if (status == STATUS_INTERRUPTED && interrupt_caught() == SIGTERM)
         err->status = status = STATUS_TERMINATED;
+    return status;
+}
+
+enum status price_make(const struct price_kind *kind, const struct scene *scene, const struct mesh *meshes,
+                       const char *path, struct error *err)
+{
+    void *table = calloc(1, kind->size);
+    char *table_path = table_name(path);
+    enum status status = table && table_path ? probe(path, table_path, err)
+                                             : error_no_memory(err, "the table");
+    if (!status)
+        status = measure(kind, scene, meshes, table, err);
+    if (!status)
+        status = save(kind, table, table_path, err);
+    if (!status && plot_is_file_name(path))
+        status = kind->draw(table, scene->path, path, err);
+    free(table_path);
+    free(table);
     return status;
 }
