@@ -37,6 +37,28 @@ static void pricked_at_high_stretch_it_goes_to_shreds(void **unused)
     assert_true(s.slenderness >= 3);
 }
 
+/* A crack that a prick starts goes both ways. At high stretch it divides again and again, and all of it comes from that one point; below, the
+ * two tips are all there are. */
+static void pricked_at_high_stretch_many_cracks_run_from_one_point(void **unused)
+{
+    (void)unused;
+    const double stretches[] = {1.3, 1.5, 2.2};
+    const unsigned at_least[] = {2, 2, 8}, at_most[] = {2, 2, UINT32_MAX};
+    for (int i = 0; i < 3; i++) {
+        struct inflated it;
+        inflate(&it, &(struct inflation){.level = 4, .stretch = stretches[i]});
+        prick(&it);
+        run_until(&it, 0.8);
+        const struct fracture *f = it.balloon->fracture;
+        unsigned running = 0;
+        for (uint32_t tip = 0; tip < f->now.tips; tip++)
+            running += f->tips[tip].alive != 0;
+        assert_int_equal(f->now.births, 1);
+        assert_in_range(running, at_least[i], at_most[i]);
+        deflate(&it);
+    }
+}
+
 static void a_regular_sphere_bursts_by_itself_without_dust(void **unused)
 {
     (void)unused;
@@ -133,6 +155,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pricked_at_low_stretch_one_crack_runs),
         cmocka_unit_test(pricked_at_high_stretch_it_goes_to_shreds),
+        cmocka_unit_test(pricked_at_high_stretch_many_cracks_run_from_one_point),
         cmocka_unit_test(a_regular_sphere_bursts_by_itself_without_dust),
         cmocka_unit_test(below_its_strength_nothing_tears),
         cmocka_unit_test(one_seed_is_one_burst_for_any_number_of_workers),
