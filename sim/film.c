@@ -36,25 +36,6 @@ static enum status make_texts(struct film *film, const struct scene *scene, stru
     return STATUS_OK;
 }
 
-/* The scene measures in radii of the ball around all points at rest. */
-static void set_camera(struct render_view *view, const struct sim *sim, const double centre[3], double radius)
-{
-    const struct scene_view *scene = &sim->scene->view;
-    struct render_camera *camera = &view->camera;
-    for (int i = 0; i < 3; i++) {
-        camera->target[i] = centre[i] + radius * scene->target[i];
-        camera->eye[i] = camera->target[i] + radius * scene->camera[i];
-        camera->up[i] = i == 1;
-    }
-    camera->field_of_view_deg = scene->field_of_view;
-    camera->screen_distance = vec3_distance(camera->eye, camera->target);
-    camera->eye_distance = scene->eye_distance * camera->screen_distance;
-    skins_view(scene, view);
-    view->smooth_edges = true;
-    view->floor = true;
-    view->floor_height = centre[1] - 1.8 * radius; /* it floats, with room to swell */
-}
-
 static const struct {
     enum render_stereo stereo;
     const char *name;
@@ -81,7 +62,7 @@ enum status film_open(struct sim *sim, const double centre[3], double radius,
     struct film *film = calloc(1, sizeof *film);
     if (!film)
         return error_no_memory(err, "the film");
-    set_camera(&film->view, sim, centre, radius);
+    skins_camera(sim, centre, radius, &film->view);
     vec3_sub(film->view.camera.eye, film->view.camera.target, film->away);
     film->folder = options->folder;
     film->first = options->first;

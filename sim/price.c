@@ -11,7 +11,7 @@ static void print_rows(const struct accuracy_table *table, FILE *stream)
     fputs(
         "method\tsetting\tsteps\tevaluations\tseconds\terror\torder\tlinear_iterations\tvolume_error\t"
         "pressure_error\tenergy_error\tbest\tchose\tmembers\tburst_time\tburst_time_spread\tpieces\tpieces_spread\t"
-        "largest_piece\tlargest_piece_spread\n",
+        "largest_piece\tlargest_piece_spread\tpicture_mean\tpicture_worst\n",
         stream);
     for (size_t i = 0; i < table->count; i++) {
         const struct accuracy_row *r = &table->rows[i];
@@ -25,8 +25,54 @@ static void print_rows(const struct accuracy_table *table, FILE *stream)
                                   b->pieces.spread, b->largest.mean, b->largest.spread};
         for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
             fprintf(stream, b->members ? "\t%.4g" : "\tnan", numbers[k]);
-        fputc('\n', stream);
+        fputs("\tnan\tnan\n", stream);
     }
+}
+
+/* A picture has no steps; its error is the mean one, over 255. */
+static void print_pictures(const struct price_pictures *pictures, FILE *stream)
+{
+    for (size_t i = 0; i < pictures->count; i++) {
+        const struct price_picture *r = &pictures->rows[i];
+        fprintf(stream, "picture\tview.order=%s view.samples=%d\t0\t0\t%.4g\t%.3e",
+                scene_order_names[r->order], r->samples, r->seconds, r->mean / 255);
+        fprintf(stream, "\tnan\t0\tnan\tnan\tnan\t%s\t-\t0\tnan\tnan\tnan\tnan\tnan\tnan\t%.4g\t%.0f\n",
+                r->best ? "yes" : "no", r->mean, r->worst);
+    }
+}
+
+static const struct price_picture *find_picture(const struct price_pictures *pictures, int order, int samples)
+{
+    const struct price_picture *row = pictures->rows;
+    while (row->order != order || row->samples != samples)
+        row++;
+    return row;
+}
+
+static void say_picture(const char *before, const struct price_picture *r, FILE *stream)
+{
+    fprintf(stream, "%s%s, %d x %d: %.3g of 255 in the mean, %.0f at worst, %.3g ms", before,
+            scene_order_names[r->order], r->samples, r->samples, r->mean, r->worst, 1e3 * r->seconds);
+}
+
+static void print_picture_prices(const struct price_pictures *pictures, FILE *stream)
+{
+    if (!pictures->count) {
+        fprintf(stream, "# pictures: none was priced: %s\n", pictures->reason);
+        return;
+    }
+    fprintf(
+        stream,
+        "# pictures: %d x %d at %.4g s; errors: of the channels of all pixels, against lists with %d x %d samples, "
+        "exact in their order and the finest there are; seconds: a frame, of all threads\n",
+        pictures->size[0], pictures->size[1], pictures->time, pictures->samples, pictures->samples);
+    const int samples = pictures->own_samples < pictures->samples ? pictures->own_samples : pictures->samples;
+    say_picture("# pictures: as the scene has it, ", find_picture(pictures, pictures->own_order, samples),
+                stream);
+    say_picture("; in exact order, ", find_picture(pictures, SCENE_ORDER_LIST, samples), stream);
+    if (samples < 2 && pictures->samples >= 2)
+        say_picture("; and smoother, ", find_picture(pictures, SCENE_ORDER_LIST, 2), stream);
+    fputc('\n', stream);
 }
 
 static void print_span(const struct accuracy_table *table, FILE *stream)
@@ -85,20 +131,30 @@ static void print_failure(const struct accuracy_failure *f, FILE *stream)
 
 static void print_table(const void *context, FILE *stream)
 {
-    const struct accuracy_table *table = context;
+    const struct price_table *prices = context;
+    const struct accuracy_table *table = &prices->accuracy;
     print_rows(table, stream);
+    print_pictures(&prices->pictures, stream);
     print_span(table, stream);
     print_burst(table, stream);
     print_auto(table, stream);
+    print_picture_prices(&prices->pictures, stream);
     for (size_t i = 0; i < table->failure_count; i++)
         print_failure(&table->failures[i], stream);
 }
 
-static enum status measure(const struct scene *scene, const struct mesh *meshes, void *table,
+static enum status measure(const struct scene *scene, const struct mesh *meshes, void *context,
                            struct error *err)
 {
-    const struct accuracy_options options = {.seconds = PRICE_SECONDS, .go_on = price_go_on};
-    return accuracy_measure(scene, meshes, &options, table, err);
+    struct price_table *prices = context;
+    struct price_part runs = {0, 0.9}, pictures = {0.9, 1};
+    struct accuracy_options options = {.seconds = PRICE_SECONDS, .go_on = price_go_on, .context = &runs};
+    enum status status = accuracy_measure(scene, meshes, &options, &prices->accuracy, err);
+    options.context = &pictures;
+    if (!status)
+        status = price_pictures_measure(scene, meshes, prices->accuracy.span, &options, &prices->pictures,
+                                        err);
+    return status;
 }
 
 static enum status draw(const void *table, const char *scene, const char *path, struct error *err)
@@ -109,6 +165,6 @@ static enum status draw(const void *table, const char *scene, const char *path, 
 enum status price_accuracy(const struct scene *scene, const struct mesh *meshes, const char *path,
                            struct error *err)
 {
-    static const struct price_kind kind = {sizeof(struct accuracy_table), measure, print_table, draw};
+    static const struct price_kind kind = {sizeof(struct price_table), measure, print_table, draw};
     return price_make(&kind, scene, meshes, path, err);
 }

@@ -39,8 +39,8 @@ static enum status save(const struct price_kind *kind, const void *table, const 
 
 bool price_go_on(void *context, double done)
 {
-    (void)context;
-    progress_update(100 * done);
+    const struct price_part *part = context;
+    progress_update(100 * (part ? part->from + (part->to - part->from) * done : done));
     return !interrupt_caught();
 }
 

@@ -28,7 +28,11 @@ struct price_kind {
 enum status price_make(const struct price_kind *kind, const struct scene *scene, const struct mesh *meshes,
                        const char *path, struct error *err);
 
-/* For whoever measures: shows the share that is done; false after a signal. */
+/* For whoever measures: shows the share that is done; false after a signal. `context`: where a part of the work lies in the whole
+ * (struct price_part), or NULL: it is the whole. */
+struct price_part {
+    double from, to;
+};
 bool price_go_on(void *context, double done);
 
 #endif

@@ -112,34 +112,81 @@ static void add_methods(struct picture *p, const struct accuracy_table *table)
     }
 }
 
-enum status price_plot(const struct accuracy_table *table, const char *scene, const char *path,
+/* Series and numbers of the pictures: a curve for each order. What is the reference has no error, and no place on the axis. */
+struct pictures {
+    double mean[PRICE_PICTURES_MAX], seconds[PRICE_PICTURES_MAX];
+    char name[PRICE_PICTURES_MAX][16];
+    const char *label[PRICE_PICTURES_MAX];
+    struct plot_series series[SCENE_ORDER_LIST + 1];
+    size_t count; /* of series */
+};
+
+static void add_pictures(struct pictures *p, const struct price_pictures *pictures)
+{
+    for (size_t i = 0; i < pictures->count; i++) {
+        const struct price_picture *row = &pictures->rows[i];
+        p->mean[i] = row->mean;
+        p->seconds[i] = row->seconds;
+        snprintf(p->name[i], sizeof p->name[i], "%d x %d", row->samples, row->samples);
+        p->label[i] = p->name[i];
+        if (i % (size_t)pictures->samples == 0)
+            p->series[p->count++] = (struct plot_series){.name = scene_order_names[row->order],
+                                                         .style = PLOT_CURVE,
+                                                         .x = p->mean + i,
+                                                         .y = p->seconds + i,
+                                                         .label = p->label + i,
+                                                         .count = (size_t)pictures->samples};
+    }
+}
+
+static enum status save(struct picture *picture, const struct price_table *table, const char *scene,
+                        const char *path, struct error *err)
+{
+    char titles[2][128], errors[96];
+    struct pictures pictures = {.count = 0};
+    add_best(picture, &table->accuracy);
+    add_methods(picture, &table->accuracy);
+    add_pictures(&pictures, &table->pictures);
+    snprintf(titles[0], sizeof titles[0], "What accuracy costs, until %.4g s", table->accuracy.span);
+    snprintf(titles[1], sizeof titles[1], "What view.order and view.samples cost, in the picture at %.4g s",
+             table->pictures.time);
+    snprintf(errors, sizeof errors, "mean error of the channels, of 255, against list, %d x %d",
+             table->pictures.samples, table->pictures.samples);
+    const struct plot_panel panels[] = {{.title = titles[0],
+                                         .x_label = "RMS error of positions, in mean radii",
+                                         .y_label = "seconds on one core",
+                                         .log_x = true,
+                                         .log_y = true,
+                                         .key_outside = true,
+                                         .series = picture->series,
+                                         .series_count = picture->series_count},
+                                        {.title = titles[1],
+                                         .x_label = errors,
+                                         .y_label = "seconds a frame, of all threads",
+                                         .log_x = true,
+                                         .log_y = true,
+                                         .key_outside = true,
+                                         .series = pictures.series,
+                                         .series_count = pictures.count}};
+    const struct plot plot = {.title = scene,
+                              .panels = panels,
+                              .panel_count = pictures.count ? 2 : 1,
+                              .columns = 1,
+                              .width = 1000,
+                              .height = 560};
+    return plot_save(&plot, path, err);
+}
+
+enum status price_plot(const struct price_table *table, const char *scene, const char *path,
                        struct error *err)
 {
     size_t methods = 0;
     while (integrators[methods])
         methods++;
     struct picture picture = {0};
-    enum status status = STATUS_OK;
-    if (make(&picture, table->count + 1, methods)) {
-        char title[128], axis[96];
-        add_best(&picture, table);
-        add_methods(&picture, table);
-        snprintf(title, sizeof title, "What accuracy costs, until %.4g s", table->span);
-        snprintf(axis, sizeof axis, "RMS error of positions, in mean radii");
-        const struct plot_panel panel = {.title = title,
-                                         .x_label = axis,
-                                         .y_label = "seconds on one core",
-                                         .log_x = true,
-                                         .log_y = true,
-                                         .key_outside = true,
-                                         .series = picture.series,
-                                         .series_count = picture.series_count};
-        const struct plot plot = {
-            .title = scene, .panels = &panel, .panel_count = 1, .columns = 1, .width = 1000, .height = 640};
-        status = plot_save(&plot, path, err);
-    } else {
-        status = error_no_memory(err, path);
-    }
+    enum status status = make(&picture, table->accuracy.count + 1, methods)
+                             ? save(&picture, table, scene, path, err)
+                             : error_no_memory(err, path);
     clear(&picture);
     return status;
 }

@@ -109,6 +109,25 @@ void skins_view(const struct scene_view *scene, struct render_view *view)
     view->samples = scene->samples;
 }
 
+/* The scene measures in radii of the ball around all points at rest. */
+void skins_camera(const struct sim *sim, const double centre[3], double radius, struct render_view *view)
+{
+    const struct scene_view *scene = &sim->scene->view;
+    struct render_camera *camera = &view->camera;
+    for (int i = 0; i < 3; i++) {
+        camera->target[i] = centre[i] + radius * scene->target[i];
+        camera->eye[i] = camera->target[i] + radius * scene->camera[i];
+        camera->up[i] = i == 1;
+    }
+    camera->field_of_view_deg = scene->field_of_view;
+    camera->screen_distance = vec3_distance(camera->eye, camera->target);
+    camera->eye_distance = scene->eye_distance * camera->screen_distance;
+    skins_view(scene, view);
+    view->smooth_edges = true;
+    view->floor = true;
+    view->floor_height = centre[1] - 1.8 * radius; /* it floats, with room to swell */
+}
+
 double skins_ball(const struct sim *sim, double centre[3])
 {
     double radius = 0;

@@ -25,6 +25,10 @@ void skins_update(struct skins *skins);
  * side where there is one picture. */
 void skins_view(const struct scene_view *scene, struct render_view *view);
 
+/* All of a film's picture: that, and the scene's camera on the ball around all points at rest (skins_ball() before the first step), smooth outlines,
+ * and a floor below it. */
+void skins_camera(const struct sim *sim, const double centre[3], double radius, struct render_view *view);
+
 /* The ball around all points as they are; returns its radius. */
 double skins_ball(const struct sim *sim, double centre[3]);
 

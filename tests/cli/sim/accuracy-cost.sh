@@ -6,7 +6,7 @@ expect 0 balloon-sim cube.ply $calm --accuracy-cost cost.tsv
 [ "$(head -n 1 .stdout | cut -f 1-7)" = "$(printf 'method\tsetting\tsteps\tevaluations\tseconds\terror\torder')" ] ||
     fail "the header is another"
 same_file .stdout cost.tsv
-grep -v '^#' cost.tsv | awk -F'\t' 'NF != 20 { exit 1 }' || fail "a row has not twenty columns"
+grep -v '^#' cost.tsv | awk -F'\t' 'NF != 22 { exit 1 }' || fail "a row has not twenty-two columns"
 for method in symplectic-euler explicit-euler verlet rk4 rkn4 rk-adaptive backward-euler implicit-midpoint bdf2 xpbd auto; do
     [ "$(grep -c "^$method	" cost.tsv)" -ge 3 ] || fail "too few rows of $method"
 done
@@ -16,6 +16,15 @@ stdout_has '^# all in double precision: '
 stdout_has '^# references: .* and .* extrapolated: they agree to [0-9.e-]+, [0-9.e+]+ times better than the best row$'
 stdout_has '^# auto at time.tolerance=1e-05 \(.*substep.*\): [0-9.]+ x the time of the fastest'
 only_files cube.oct cube.ply cost.tsv
+
+# one picture in each order with each number of samples, for a scene that says nothing of its view
+[ "$(grep -c '^picture	view.order=[a-z]* view.samples=[1-4]	' cost.tsv)" = 16 ] || fail "not sixteen rows of pictures"
+awk -F'\t' '$2 == "view.order=list view.samples=4" && $6 == 0 && $21 == 0 && $22 == 0 { found = 1 } END { exit !found }' cost.tsv ||
+    fail "lists with 4 x 4 samples are not the reference"
+mean() { awk -F'\t' -v row="view.order=$1 view.samples=$2" '$2 == row { print $21 }' cost.tsv; }
+awk "BEGIN { exit !($(mean none 2) > 2 * $(mean sort 2)) }" || fail "no order is as good as sorting"
+stdout_has '^# pictures: 1280 x 480 at 0\.4 s; errors: .*against lists with 4 x 4 samples'
+stdout_has '^# pictures: as the scene has it, sort, 1 x 1: [0-9.e-]+ of 255 in the mean, [0-9]+ at worst, [0-9.e+]+ ms; in exact order, list, 1 x 1: '
 
 # a membrane is nothing for a method that moves springs
 expect 0 balloon-sim cube.ply $calm --set time.end=0.1 --set balloons[0].membrane.thickness=0.5 --accuracy-cost skin.tsv
@@ -30,6 +39,7 @@ if command -v gnuplot >/dev/null; then
     expect 0 balloon-sim cube.ply $calm --accuracy-cost cost.svg
     a_file cost.svg
     grep -q 'auto' cost.svg || fail "auto is not in the plot"
+    grep -q 'view.order' cost.svg || fail "pictures are not in the plot"
 else
     echo "gnuplot is not installed: no plot was drawn"
 fi
