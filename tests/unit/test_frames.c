@@ -1,9 +1,8 @@
-/* What becomes of a run's pictures: PNGs, a movie, a contact sheet, and what is said when they cannot be. */
-#include "check.h"
+/* What becomes of a run's pictures: PNGs, a movie, and what is said when they cannot be. */
 #include "common/file.h"
+#include "pictures.h"
 #include "render/frames.h"
 #include "render/movie.h"
-#include "render/sheet.h"
 
 #include <ftw.h>
 #include <glob.h>
@@ -93,14 +92,6 @@ static void paint(struct image *image, int n)
             rgb[1] = (unsigned char)x;
             rgb[2] = (unsigned char)y;
         }
-}
-
-static struct image a_picture(int width, int height)
-{
-    struct error err;
-    struct image image = {0};
-    assert_ok(image_init(&image, width, height, &err), &err);
-    return image;
 }
 
 static void assert_png_shows(const char *path, const struct image *image)
@@ -367,88 +358,6 @@ static void real_movies_have_every_picture_and_even_sides(void **state)
     }
 }
 
-/* Grey pictures: still for 500, then brighter by 2 with each of 100. */
-static void a_sheet_shows_what_changes_evenly(void **state)
-{
-    (void)state;
-    struct error err;
-    struct sheet sheet = {0};
-    struct image image = a_picture(64, 48), out = {0};
-    for (int n = 0; n < 600; n++) {
-        memset(image.rgb, n < 500 ? 0 : 2 * (n - 499), 3 * 64 * 48);
-        assert_ok(sheet_add(&sheet, &image, n, &err), &err);
-        assert_true(sheet.count <= SHEET_KEPT);
-    }
-    int chosen[SHEET_MOMENTS];
-    assert_int_equal(sheet_choose(&sheet, chosen), 12);
-    assert_true(sheet.moments[chosen[0]].time == 0);
-    assert_true(sheet.moments[chosen[11]].time == 599);
-    for (int k = 1; k < 12;
-         k++) /* one of the kept steps is 100 / 24 pictures at most: half of that is the error */
-        assert_near(sheet.moments[chosen[k]].time, 499 + k * 100 / 11.0, 2.5);
-    assert_ok(sheet_draw(&sheet, &out, &err), &err);
-    assert_int_equal(out.width, 4 * 64 + 5 * 6);
-    assert_int_equal(out.height, 3 * 48 + 4 * 6);
-    assert_int_equal(out.rgb[0], 255);
-    assert_int_equal(out.rgb[3 * (6 * out.width + 6)], 0);
-    assert_int_equal(out.rgb[3 * ((6 + 48 + 6 + 48 + 6) * out.width + out.width - 7)], 200);
-    image_clear(&image);
-    image_clear(&out);
-    sheet_clear(&sheet);
-}
-
-static void a_still_run_is_spaced_evenly_in_time(void **state)
-{
-    (void)state;
-    struct error err;
-    struct sheet sheet = {0};
-    struct image image = a_picture(64, 48);
-    int chosen[SHEET_MOMENTS];
-    for (int n = 0; n < 45; n++)
-        assert_ok(sheet_add(&sheet, &image, n, &err), &err);
-    assert_int_equal(sheet_choose(&sheet, chosen), 12);
-    for (int k = 0; k < 12; k++)
-        assert_near(chosen[k], 4 * k, 0.5);
-    image_clear(&image);
-    sheet_clear(&sheet);
-}
-
-static void a_sheet_of_few_large_pictures_shows_them_all_reduced(void **state)
-{
-    (void)state;
-    struct error err;
-    struct sheet sheet = {0};
-    struct image image = a_picture(1920, 960), out = {0};
-    assert_refused(sheet_draw(&sheet, &out, &err), STATUS_RANGE, "at least one", &err);
-    memset(image.rgb, 77, 3 * 1920 * 960);
-    for (int n = 0; n < 5; n++)
-        assert_ok(sheet_add(&sheet, &image, n * 1e-5, &err), &err);
-    assert_ok(sheet_draw(&sheet, &out, &err), &err);
-    assert_int_equal(out.width, 4 * 480 + 5 * 6);
-    assert_int_equal(out.height, 2 * 240 + 3 * 6);
-    assert_int_equal(out.rgb[3 * (100 * out.width + 100)], 77);
-    assert_int_equal(out.rgb[3 * (400 * out.width + 700)], 255); /* no sixth */
-    image_clear(&image);
-    image_clear(&out);
-    sheet_clear(&sheet);
-}
-
-static void labels_are_cut_off_at_the_edges(void **state)
-{
-    (void)state;
-    struct image image = a_picture(20, 20);
-    label_draw(&image, -7, -3, 2, "-1.5e+07 s");
-    label_draw(&image, 15, 15, 3, "88");
-    image_clear(&image);
-    image = a_picture(10, 10);
-    memset(image.rgb, 255, 300);
-    label_draw(&image, 2, 1, 1, "1"); /* its stem is three dots from the left */
-    for (int y = 1; y < 8; y++)
-        assert_true(image.rgb[3 * (10 * y + 4)] < 100);
-    assert_int_equal(image.rgb[3 * (10 * 8 + 4)], 255);
-    image_clear(&image);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -465,10 +374,6 @@ int main(void)
         cmocka_unit_test_setup(movies_have_a_known_extension_and_are_no_folders, empty_folder),
         cmocka_unit_test_setup(an_abandoned_movie_is_not_there, empty_folder),
         cmocka_unit_test_setup(real_movies_have_every_picture_and_even_sides, empty_folder),
-        cmocka_unit_test(a_sheet_shows_what_changes_evenly),
-        cmocka_unit_test(a_still_run_is_spaced_evenly_in_time),
-        cmocka_unit_test(a_sheet_of_few_large_pictures_shows_them_all_reduced),
-        cmocka_unit_test(labels_are_cut_off_at_the_edges),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
