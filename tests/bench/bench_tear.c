@@ -2,17 +2,10 @@
 #include "common/vec3.h"
 #include "sim/fracture.h"
 #include "support/bench.h"
+#include "support/rubber.h"
 #include "support/shapes.h"
 
 #include <math.h>
-
-static void set(struct scene *scene, const char *key, double value)
-{
-    char text[128];
-    struct error err = {0};
-    snprintf(text, sizeof text, "%s=%.17g", key, value);
-    bench_check(scene_set(scene, text, &err), &err);
-}
 
 static void open_balloon(unsigned level, struct scene *scene, struct sim *sim)
 {
@@ -22,16 +15,8 @@ static void open_balloon(unsigned level, struct scene *scene, struct sim *sim)
     bench_check(mesh_order(&mesh, &err), &err);
     bench_check(scene_from_mesh("balloon.ply", scene, &err), &err);
     const double edge = sqrt(16 * 3.141592653589793 / (mesh.triangle_count * sqrt(3)));
-    set(scene, "balloons[0].radius", 1);
-    set(scene, "balloons[0].pressure", 0);
-    set(scene, "balloons[0].membrane.shear_modulus", 1);
-    set(scene, "balloons[0].membrane.thickness", 1);
-    set(scene, "balloons[0].membrane.density", 1);
-    set(scene, "balloons[0].membrane.viscosity", 0.02);
-    set(scene, "balloons[0].gas.ambient", 30);
-    set(scene, "balloons[0].gas.density", 0.15);
-    set(scene, "balloons[0].gas.fill", 8 * (1 + 2 * (0.5 - 1.0 / 128) / 30));
-    set(scene, "time.step", 0.02 * edge);
+    bench_check(rubber_keys(scene, 2, 0.02, &err), &err);
+    bench_check(rubber_key(scene, "time.step", 0.02 * edge, &err), &err);
     bench_check(scene_set(scene, "balloons[0].fracture.mode=tear", &err), &err);
     bench_check(scene_check(scene, &err), &err);
     bench_check(sim_open(sim, scene, &mesh, 1, &err), &err);

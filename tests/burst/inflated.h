@@ -5,6 +5,7 @@
 
 #include "common/vec3.h"
 #include "sim/fracture.h"
+#include "support/rubber.h"
 #include "support/shapes.h"
 #include "unit/check.h"
 
@@ -31,10 +32,8 @@ struct inflation {
 
 static inline void inflated_set(struct scene *scene, const char *key, double value)
 {
-    char text[128];
     struct error err = {0};
-    snprintf(text, sizeof text, "%s=%.17g", key, value);
-    assert_ok(scene_set(scene, text, &err), &err);
+    assert_ok(rubber_key(scene, key, value, &err), &err);
 }
 
 static inline void turn_mesh(struct mesh *mesh, double angle)
@@ -48,26 +47,15 @@ static inline void turn_mesh(struct mesh *mesh, double angle)
         }
 }
 
-/* Thin neo-Hookean sphere: p = 2 (1/L - 1/L^7); an ambient pressure of 30 and a gas of density .15 are those of a toy balloon of latex
- * (1e5 over 3e3 Pa, 1.2 over 8 kg/m^3 with its thickness counted as 1). */
-static inline void set_skin(struct scene *scene, const struct inflation *how, double edge)
+/* Springs as stiff and heavy as the rubber: k = 4/sqrt 3 mu, all points together 4 pi. */
+static inline void set_springs(struct scene *scene, double stretch, double edge)
 {
-    const double l = how->stretch, pressure = 2 * (1 / l - pow(l, -7));
-    if (how->springs) { /* as stiff and heavy as that: k = 4/sqrt 3 mu, all points together 4 pi */
-        inflated_set(scene, "balloons[0].spring", 4 / sqrt(3));
-        inflated_set(scene, "balloons[0].point_mass", 0.8660254 * edge * edge);
-        inflated_set(scene, "balloons[0].damping", 0.173 * edge);
-        inflated_set(scene, "balloons[0].pressure", pressure * l * l * 0.8660254 * edge * edge);
-        return;
-    }
-    inflated_set(scene, "balloons[0].membrane.shear_modulus", 1);
-    inflated_set(scene, "balloons[0].membrane.thickness", 1);
-    inflated_set(scene, "balloons[0].membrane.density", 1);
-    inflated_set(scene, "balloons[0].membrane.viscosity", 0.05);
-    inflated_set(scene, "balloons[0].pressure", 0);
-    inflated_set(scene, "balloons[0].gas.ambient", 30);
-    inflated_set(scene, "balloons[0].gas.density", 0.15);
-    inflated_set(scene, "balloons[0].gas.fill", l * l * l * (1 + pressure / 30));
+    const double point_area = 0.8660254 * edge * edge;
+    inflated_set(scene, "balloons[0].radius", 1);
+    inflated_set(scene, "balloons[0].spring", 4 / sqrt(3));
+    inflated_set(scene, "balloons[0].point_mass", point_area);
+    inflated_set(scene, "balloons[0].damping", 0.173 * edge);
+    inflated_set(scene, "balloons[0].pressure", rubber_pressure(stretch) * stretch * stretch * point_area);
 }
 
 static inline void inflate(struct inflated *it, const struct inflation *how)
@@ -81,8 +69,10 @@ static inline void inflate(struct inflated *it, const struct inflation *how)
     *it = (struct inflated){0};
     assert_ok(scene_from_mesh("balloon.ply", &it->scene, &err), &err);
     const double edge = sqrt(4 * 3.141592653589793 / mesh.triangle_count * 4 / sqrt(3));
-    inflated_set(&it->scene, "balloons[0].radius", 1);
-    set_skin(&it->scene, how, edge);
+    if (how->springs)
+        set_springs(&it->scene, how->stretch, edge);
+    else
+        assert_ok(rubber_keys(&it->scene, how->stretch, 0.05, &err), &err);
     inflated_set(&it->scene, "time.step", 0.12 * edge * (how->step > 0 ? how->step : 1));
     inflated_set(&it->scene, "time.end", 100);
     assert_ok(scene_set(&it->scene, "time.guard=substep", &err), &err);

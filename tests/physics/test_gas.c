@@ -1,8 +1,7 @@
 /* Gas against the laws of an ideal gas: amounts, pressures, energies and thrust. */
-#include "../unit/balloon.h"
 #include "sim/effect_gas.h"
 #include "sim/gas.h"
-#include "sim/ledger.h"
+#include "unit/books.h"
 
 /* Gas of 10 around, in the paper's balloon at level 2: 162 points. */
 #define GAS(...)                                                                                             \
@@ -279,18 +278,12 @@ static void a_hole_lets_it_out(void **state)
  * the next order). */
 static double balance_error(const char *step, const char *more, const char *again, double *scale)
 {
-    struct balloon b;
-    struct error err = {0};
-    open_balloon(&b, 2,
-                 GAS("balloons[0].gas.fill=3", "time.integrator=rk4", step, "balloons[0].gas.leak=300",
-                     "balloons[0].gas.process=adiabatic", "balloons[0].gas.pump=0.4", more, again));
-    assert_ok(ledger_open(&b.sim, &err), &err);
-    while (b.sim.time < 0.2 - 1e-6)
-        steps(&b, 1);
-    const struct sim_measures m = sim_measure(&b.sim);
-    const struct ledger_balance account = ledger_balance(&b.sim, &m);
+    struct sim_measures end;
+    const struct ledger_balance account = balance_of_run(
+        GAS("balloons[0].gas.fill=3", "time.integrator=rk4", step, "balloons[0].gas.leak=300",
+            "balloons[0].gas.process=adiabatic", "balloons[0].gas.pump=0.4", more, again),
+        &end);
     *scale = account.gas;
-    close_balloon(&b);
     return account.error;
 }
 

@@ -1,7 +1,6 @@
 /* What acts on a balloon from outside: gravity, the lift of light gas, drag, strings and pins. */
-#include "../unit/balloon.h"
 #include "sim/effect_gas.h"
-#include "sim/ledger.h"
+#include "unit/books.h"
 
 /* A balloon that nothing inflates and nothing breaks. */
 #define QUIET(...) \
@@ -192,21 +191,15 @@ static void a_weight_and_its_balloon_fall_as_one(void **state)
  * here: that kink would cost an order. */
 static double balance_error(const char *step, double *scale)
 {
-    struct balloon b;
-    struct error err = {0};
-    open_balloon(&b, 2,
-                 SETTINGS("time.integrator=rk4", step, "time.guard=off", "balloons[0].threshold=100",
-                          "gravity.acceleration=[0.0, -9.81, 0.0]", "gravity.air_density=0.001",
-                          "drag.air_density=0.001", "drag.wind=[20, 0, 0]", "balloons[0].gas.ambient=10",
-                          "balloons[0].gas.fill=2", "balloons[0].gas.density=0.0002",
-                          "balloons[0].string.slack=0.1", "balloons[0].string.stiffness=20"));
-    assert_ok(ledger_open(&b.sim, &err), &err);
-    while (b.sim.time < 0.2 - 1e-6)
-        steps(&b, 1);
-    const struct sim_measures m = sim_measure(&b.sim);
-    const struct ledger_balance account = ledger_balance(&b.sim, &m);
-    *scale = m.kinetic_energy;
-    close_balloon(&b);
+    struct sim_measures end;
+    const struct ledger_balance account = balance_of_run(
+        SETTINGS("time.integrator=rk4", step, "time.guard=off", "balloons[0].threshold=100",
+                 "gravity.acceleration=[0.0, -9.81, 0.0]", "gravity.air_density=0.001",
+                 "drag.air_density=0.001", "drag.wind=[20, 0, 0]", "balloons[0].gas.ambient=10",
+                 "balloons[0].gas.fill=2", "balloons[0].gas.density=0.0002", "balloons[0].string.slack=0.1",
+                 "balloons[0].string.stiffness=20"),
+        &end);
+    *scale = end.kinetic_energy;
     return account.error;
 }
 

@@ -2,8 +2,7 @@
  *
  * An icosahedron that swells is one spring: all edges have the length c R, and with a pull T in each the five at a point hold 5 T c/2 against the
  * pressure's force P. Points are light, so that nothing swings. */
-#include "sim/ledger.h"
-#include "unit/balloon.h"
+#include "unit/books.h"
 
 #define UNIT(...)                                                                                   \
     SETTINGS("balloons[0].radius=10", "balloons[0].point_mass=0.001", "balloons[0].spring=20",      \
@@ -126,19 +125,17 @@ static void viscosity_is_in_the_ledger(void **state)
 {
     (void)state;
     struct balloon b;
-    struct error err = {0};
     open_balloon(&b, 1,
                  UNIT("balloons[0].damping=0.1", "balloons[0].point_mass=0.1",
                       "balloons[0].viscosity.ratio=1", "balloons[0].pressure=0", "time.step=0.002",
                       "balloons[0].viscosity.time=0.2"));
     for (uint32_t p = 0; p < b.sim.point_count; p++)
         b.sim.position[p][0] *= 1.2;
-    assert_ok(ledger_open(&b.sim, &err), &err);
+    open_books(&b);
     steps(&b, 500);
-    const struct sim_measures m = sim_measure(&b.sim);
-    const struct ledger_balance balance = ledger_balance(&b.sim, &m);
-    assert_true(balance.dissipated > 1);
-    assert_near(balance.error, 0, 0.02 * balance.dissipated);
+    const struct ledger_balance account = balance(&b);
+    assert_true(account.dissipated > 1);
+    assert_near(account.error, 0, 0.02 * account.dissipated);
     close_balloon(&b);
 }
 
@@ -148,14 +145,13 @@ static void what_breaks_takes_its_units_energy_along(void **state)
 {
     (void)state;
     struct balloon b;
-    struct error err = {0};
     open_balloon(&b, 1,
                  UNIT("balloons[0].viscosity.ratio=3", "balloons[0].plasticity.yield=5",
                       "balloons[0].pressure=0", "balloons[0].damping=0"));
     struct sim *sim = &b.sim;
     for (uint32_t p = 0; p < sim->point_count; p++)
         sim->position[p][0] *= 1.2;
-    assert_ok(ledger_open(sim, &err), &err);
+    open_books(&b);
     steps(&b, 3);
     struct sim_measures m = sim_measure(sim);
     const struct ledger_balance before = ledger_balance(sim, &m);

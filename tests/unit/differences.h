@@ -21,6 +21,19 @@ static inline void fill(rows x, uint32_t count, double size, uint64_t *random)
             x[p][i] += size * (2 * random_unit(random) - 1);
 }
 
+/* Stretched by these factors along x, y and z, shaken by up to `size` of edges of .3, in motion, a few triangles gone. */
+static inline void deform(struct sim *sim, const double factor[3], double size)
+{
+    uint64_t random = 3;
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        for (int i = 0; i < 3; i++)
+            sim->position[p][i] *= factor[i];
+    fill(sim->position, sim->point_count, size, &random);
+    fill(sim->velocity, sim->point_count, 1, &random);
+    for (uint32_t t = 0; t < sim->triangle_count; t += 13)
+        sim->triangle_active[t] = 0;
+}
+
 static inline double largest(rows a, uint32_t count)
 {
     double most = 0;

@@ -1,10 +1,9 @@
 /* Hinges: forces against their energy, derivatives against forces, what they keep, and what ends them. */
-#include "balloon.h"
+#include "books.h"
 #include "differences.h"
 #include "sim/bending.h"
 #include "sim/guard.h"
 #include "sim/jacobian.h"
-#include "sim/ledger.h"
 #include "sim/topology.h"
 
 /* A balloon of radius 1 that nothing but its hinges acts on. */
@@ -14,17 +13,10 @@
              "balloons[0].bending.stiffness=1", "time.integrator=symplectic-euler", "time.step=0.01", \
              "time.end=1e6" __VA_OPT__(, ) __VA_ARGS__)
 
-/* Stretched by these factors, shaken by up to `size` of edges of .3, in motion, a few triangles and edges gone. */
-static void deform(struct sim *sim, const double factor[3], double size)
+/* Out of shape and in motion, a few triangles and edges gone. */
+static void crumple(struct sim *sim, const double factor[3], double size)
 {
-    uint64_t random = 3;
-    for (uint32_t p = 0; p < sim->point_count; p++)
-        for (int i = 0; i < 3; i++)
-            sim->position[p][i] *= factor[i];
-    fill(sim->position, sim->point_count, size, &random);
-    fill(sim->velocity, sim->point_count, 1, &random);
-    for (uint32_t t = 0; t < sim->triangle_count; t += 13)
-        sim->triangle_active[t] = 0;
+    deform(sim, factor, size);
     for (uint32_t e = 0; e < sim->edge_count; e += 17)
         sim->edge_active[e] = 0;
 }
@@ -52,7 +44,7 @@ static void forces_are_the_slope_of_the_energy(void **state)
             uint64_t random = 9;
             double size;
             open_balloon(&b, 2, flat ? HINGES("balloons[0].bending.rest=flat") : HINGES());
-            deform(&b.sim, shapes[k].factor, shapes[k].size);
+            crumple(&b.sim, shapes[k].factor, shapes[k].size);
             rows dx = new_rows(&b.sim);
             fill(dx, b.sim.point_count, 1, &random);
             const double work = work_against(&b.sim, dx, &size);
@@ -69,7 +61,7 @@ static void check_products(const char *const *changes, int shape)
     uint64_t random = 5;
     open_balloon(&b, 2, changes);
     struct sim *sim = &b.sim;
-    deform(sim, shapes[shape].factor, shapes[shape].size);
+    crumple(sim, shapes[shape].factor, shapes[shape].size);
     assert_ok(sim_jacobian_open(sim, &(struct error){0}), &(struct error){0});
     sim_linearise(sim);
     double size;
@@ -108,7 +100,7 @@ static void hinges_push_and_turn_nothing_as_a_whole(void **state)
         struct balloon b;
         double force[3] = {0}, torque[3] = {0};
         open_balloon(&b, 2, HINGES("balloons[0].bending.damping=0.3"));
-        deform(&b.sim, shapes[k].factor, shapes[k].size);
+        crumple(&b.sim, shapes[k].factor, shapes[k].size);
         sim_forces(&b.sim);
         add_moments(&b.sim, b.sim.force, force, torque);
         const double size = largest(b.sim.force, b.sim.point_count);
@@ -144,7 +136,7 @@ static void the_guards_bound_holds_for_hinges(void **state)
     for (int k = 0; k < 3; k++) {
         struct balloon b;
         open_balloon(&b, 2, HINGES("time.guard=substep", "time.step=0.1", "balloons[0].spring=1"));
-        deform(&b.sim, (double[3]){1, 1, 1}, 0.1 * k);
+        crumple(&b.sim, (double[3]){1, 1, 1}, 0.1 * k);
         memset(b.sim.velocity, 0, b.sim.point_count * sizeof *b.sim.velocity);
         sim_forces(&b.sim); /* so that it is known how steep things are */
         b.sim.hooks[EFFECT_FORCES][0].effect->after(&b.sim, b.sim.balloons);
@@ -166,7 +158,7 @@ static void the_bound_is_above_the_stiffest_mode(void **state)
         uint64_t random = 5;
         open_balloon(&b, 2, HINGES());
         struct sim *sim = &b.sim;
-        deform(sim, shapes[k].factor, shapes[k].size);
+        crumple(sim, shapes[k].factor, shapes[k].size);
         sim_forces(sim);
         sim->hooks[EFFECT_FORCES][0].effect->after(sim, sim->balloons);
         guard_outdated(sim);
@@ -256,12 +248,11 @@ static void a_cut_ends_its_hinge(void **state)
 {
     (void)state;
     struct balloon b;
-    struct error err = {0};
     uint64_t random = 8;
     double size;
     open_balloon(&b, 2, HINGES("balloons[0].fracture.mode=tear", "balloons[0].fracture.strength=50"));
     struct sim *sim = &b.sim;
-    assert_ok(ledger_open(sim, &err), &err);
+    open_books(&b);
     fill(sim->position, sim->balloons->point_end, 0.05, &random);
     const double before = effects_energy(sim);
     cut_some(sim, 30);
@@ -287,23 +278,21 @@ static void the_ledger_balances(void **state)
     (void)state;
     double error[2];
     for (int k = 0; k < 2; k++) {
-        struct error err = {0};
         struct balloon b;
         open_balloon(&b, 2,
                      HINGES("balloons[0].spring=2", "balloons[0].bending.damping=0.05",
                             k ? "time.step=0.0025" : "time.step=0.005"));
         for (uint32_t p = 0; p < b.sim.point_count; p++)
             b.sim.position[p][0] *= 0.7;
-        assert_ok(ledger_open(&b.sim, &err), &err);
+        open_books(&b);
         steps(&b, k ? 200 : 100);
         sim_break_edge(&b.sim, 30);
         sim_break_edge(&b.sim, 77);
         steps(&b, k ? 200 : 100);
-        const struct sim_measures m = sim_measure(&b.sim);
-        const struct ledger_balance balance = ledger_balance(&b.sim, &m);
-        assert_true(balance.dissipated > 0.01);
-        assert_true(balance.fracture > 0);
-        error[k] = fabs(balance.error);
+        const struct ledger_balance account = balance(&b);
+        assert_true(account.dissipated > 0.01);
+        assert_true(account.fracture > 0);
+        error[k] = fabs(account.error);
         assert_true(error[k] < 0.02 * b.sim.ledger.account.begin);
         close_balloon(&b);
     }

@@ -1,34 +1,17 @@
 /* The ledger: what comes in goes out or is there, and keeping accounts changes nothing. */
-#include "balloon.h"
-#include "sim/ledger.h"
-
-static void open_books(struct balloon *b)
-{
-    struct error err = {0};
-    assert_ok(ledger_open(&b->sim, &err), &err);
-}
-
-static struct ledger_balance balance(struct balloon *b)
-{
-    const struct sim_measures m = sim_measure(&b->sim);
-    return ledger_balance(&b->sim, &m);
-}
+#include "books.h"
 
 /* The balance's error after .2 s of swelling, at this step; the greatest energy in play goes to *scale. */
 static double error_at(const char *integrator, double step, double *scale)
 {
-    struct balloon b;
     char name[64], text[64];
     snprintf(name, sizeof name, "time.integrator=%s", integrator);
     snprintf(text, sizeof text, "time.step=%.17g", step);
-    open_balloon(&b, 2, SETTINGS(name, text, "balloons[0].pressure=4", "time.end=0.2"));
-    open_books(&b);
-    while (b.sim.time < 0.2 - step / 2)
-        steps(&b, 1);
-    const struct ledger_balance account = balance(&b);
+    struct sim_measures end;
+    const struct ledger_balance account = balance_of_run(
+        SETTINGS(name, text, "balloons[0].pressure=4", "time.end=0.2"), &end);
     assert_true(account.pressure_work > 0 && account.dissipated > 0);
     *scale = account.pressure_work;
-    close_balloon(&b);
     return account.error;
 }
 
@@ -43,7 +26,7 @@ static void its_error_falls_with_the_integrators_order(void **state)
             continue;
         double scale, coarse = error_at(integrators[i]->name, 0.002, &scale),
                       fine = error_at(integrators[i]->name, 0.001, &scale);
-        print_message("%s: %.3g, %.3g of %.3g\n", integrators[i]->name, coarse, fine, scale);
+        print_message("# %s: %.3g, %.3g of %.3g\n", integrators[i]->name, coarse, fine, scale);
         if (fabs(fine) < 1e-12 * scale)
             continue;
         assert_true(log2(fabs(coarse / fine)) > integrators[i]->order - 0.1);
