@@ -18,7 +18,7 @@ enum {
 
 void app_say(struct app *app, const char *text)
 {
-    snprintf(app->message, sizeof app->message, "%s", text);
+    hints_say(&app->hints, text);
     window_redraw(app->window);
 }
 
@@ -112,7 +112,7 @@ static void begin_drag(struct app *app, enum window_button button, int modifiers
         app->drag = DRAG_TURN;
     else if (!app->preview) {
         app->drag = DRAG_TOOL;
-        app->message[0] = '\0';
+        hints_say(&app->hints, "");
         app_say_unless_ok(app, session_press(&app->session, &err), &err);
     }
 }

@@ -4,6 +4,7 @@
 #ifndef SCULPT_WINDOW_APP_H
 #define SCULPT_WINDOW_APP_H
 
+#include "render/hints.h"
 #include "render/orbit.h"
 #include "render/overlay.h"
 #include "render/solid.h"
@@ -66,7 +67,7 @@ struct app {
     } faces;
     struct orbit orbit;
     struct render_view view;
-    bool cell_edges, smooth_light, help;
+    bool cell_edges, smooth_light;
 
     enum drag drag;
     int x, y; /* of the pointer */
@@ -85,8 +86,8 @@ struct app {
     uint64_t hollow;      /* its empty cells within */
     const char *written;  /* of the last file: "saving...", "saved" */
     size_t forgotten;     /* session.forgotten, when that was told last */
-    char message[1100];   /* the last thing there was to say */
-    struct error failed;  /* what ended the program */
+    struct hints hints;
+    struct error failed; /* what ended the program */
 };
 
 /* window_files.c: opens the sculpture `path` in the place of the one that is there, with the work that a killed program

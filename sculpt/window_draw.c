@@ -102,7 +102,7 @@ void app_draw(struct app *app)
         status = render_show(app->render, &view, &scene, &err);
     }
     if (status)
-        snprintf(app->message, sizeof app->message, "%s", err.text);
+        hints_say(&app->hints, err.text);
     app_schedule(app);
 }
 

@@ -176,7 +176,7 @@ static bool brush_key(struct session *session, int key)
 
 static void view_key(struct app *app, int key, int modifiers)
 {
-    if (orbit_key(&app->orbit, key, modifiers & WINDOW_CTRL))
+    if (orbit_key(&app->orbit, key, modifiers & WINDOW_CTRL) || hints_key(&app->hints, key))
         return;
     switch (key) {
     case WINDOW_HOME:
@@ -197,14 +197,6 @@ static void view_key(struct app *app, int key, int modifiers)
         break;
     case 'i':
         toggle_inflation(app);
-        break;
-    case WINDOW_F1:
-    case '?':
-        app->help = !app->help;
-        break;
-    case WINDOW_ESCAPE:
-        app->help = false;
-        app->message[0] = '\0';
         break;
     default:
         break;

@@ -119,11 +119,11 @@ size_t app_texts(const struct app *app, struct render_text texts[WINDOW_TEXTS_MA
         describe_tool(app, storage[count], TEXT_SIZE);
         add_text(app, texts, &count, storage[count], MARGIN, -MARGIN, white);
     }
-    if (app->message[0]) {
-        snprintf(storage[count], TEXT_SIZE, "%s", app->message);
+    if (app->hints.message[0]) {
+        snprintf(storage[count], TEXT_SIZE, "%s", app->hints.message);
         add_text(app, texts, &count, storage[count], MARGIN, MARGIN, warm);
     }
-    if (app->help) {
+    if (app->hints.help) {
         memcpy(storage[count], help, sizeof help);
         add_text(app, texts, &count, storage[count], 3 * MARGIN, 6 * MARGIN, white);
     }

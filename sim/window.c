@@ -30,7 +30,7 @@ double app_seconds(void)
 
 void app_say(struct app *app, const char *text)
 {
-    snprintf(app->message, sizeof app->message, "%s", text);
+    hints_say(&app->hints, text);
     window_redraw(app->window);
 }
 
@@ -104,7 +104,7 @@ void app_show(struct app *app, double frame)
 void app_restart(struct app *app)
 {
     live_restart(&app->live);
-    app->message[0] = '\0';
+    hints_say(&app->hints, "");
     app->touched = app->stale = true;
     app_pause(app, false);
 }

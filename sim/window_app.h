@@ -4,6 +4,7 @@
 #define SIM_WINDOW_APP_H
 
 #include "render/frames.h"
+#include "render/hints.h"
 #include "render/orbit.h"
 #include "render/overlay.h"
 #include "render/window.h"
@@ -53,7 +54,7 @@ struct app {
     double ball[4];                     /* around all points at rest: centre, radius */
     double eye_distance;                /* over the distance to the target */
     enum wires wires;
-    bool stretch_colours, panel, help;
+    bool stretch_colours, panel;
 
     enum drag drag;
     enum live_dial dial;          /* that is dragged */
@@ -85,7 +86,7 @@ struct app {
         struct render_box *items;
         size_t count, capacity;
     } boxes;
-    char message[1100];  /* the last thing there was to say */
+    struct hints hints;
     struct error failed; /* what ended the program */
 };
 

@@ -223,7 +223,7 @@ void app_draw(struct app *app)
     if (!status)
         status = render_show(app->render, &view, &scene, &err);
     if (status) /* it is read in the next picture */
-        memcpy(app->message, err.text, sizeof err.text);
+        hints_say(&app->hints, err.text);
     count_frames(app, begun);
 }
 

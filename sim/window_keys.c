@@ -95,7 +95,7 @@ static void change_order(struct app *app)
 
 static void view_key(struct app *app, int key, int modifiers)
 {
-    if (orbit_key(&app->orbit, key, modifiers & WINDOW_CTRL))
+    if (orbit_key(&app->orbit, key, modifiers & WINDOW_CTRL) || hints_key(&app->hints, key))
         return;
     switch (key) {
     case WINDOW_HOME:
@@ -125,14 +125,6 @@ static void view_key(struct app *app, int key, int modifiers)
         break;
     case 'p':
         app_save_picture(app);
-        break;
-    case WINDOW_F1:
-    case '?':
-        app->help = !app->help;
-        break;
-    case WINDOW_ESCAPE:
-        app->help = false;
-        app->message[0] = '\0';
         break;
     default:
         break;

@@ -161,8 +161,8 @@ size_t app_texts(struct app *app, struct render_text texts[WINDOW_TEXTS_MAX])
     describe_state(app, room(&page), TEXT_SIZE);
     wrap(room(&page), columns);
     render_text_size(add(&page, MARGIN, MARGIN, 1, white, true), &width, &height);
-    if (app->message[0]) {
-        snprintf(room(&page), TEXT_SIZE, "%s", app->message);
+    if (app->hints.message[0]) {
+        snprintf(room(&page), TEXT_SIZE, "%s", app->hints.message);
         wrap(room(&page), columns);
         add(&page, MARGIN, 2 * MARGIN + height, 1, warm, true);
     }
@@ -172,7 +172,7 @@ size_t app_texts(struct app *app, struct render_text texts[WINDOW_TEXTS_MAX])
     }
     if (app->stretch_colours)
         add_legend(app, &page);
-    if (app->help) {
+    if (app->hints.help) {
         snprintf(room(&page), TEXT_SIZE, "%s", app_help);
         add(&page, 3 * MARGIN, 9 * MARGIN, 1, white, true);
     }

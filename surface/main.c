@@ -134,17 +134,12 @@ static void check_arguments(const struct arguments *arguments, struct argp_state
                    "--fields-per-cube 0: then --fields-per-area must be above 0, or there is no field");
 }
 
-static error_t parse(int key, char *argument, struct argp_state *state)
+/* What decides the mesh. */
+static error_t parse_dial(int key, const char *argument, struct argp_state *state)
 {
     struct arguments *arguments = state->input;
     struct surface_options *options = &arguments->options;
     switch (key) {
-    case 'o':
-        arguments->output = argument;
-        break;
-    case 'q':
-        command_set_quiet(true);
-        break;
     case KEY_CUBE_SIZE:
         options->cube_size = command_number(state, "--cube-size", argument, 1e-6, 1e6);
         break;
@@ -175,8 +170,24 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     case KEY_SEED:
         options->seed = (uint64_t)command_whole(state, "--seed", argument, 0, INT64_MAX);
         break;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+    return 0;
+}
+
+static error_t parse(int key, char *argument, struct argp_state *state)
+{
+    struct arguments *arguments = state->input;
+    switch (key) {
+    case 'o':
+        arguments->output = argument;
+        break;
+    case 'q':
+        command_set_quiet(true);
+        break;
     case KEY_THREADS:
-        options->threads = (unsigned)command_whole(state, "--threads", argument, 1, THREADS_MAX);
+        arguments->options.threads = (unsigned)command_whole(state, "--threads", argument, 1, THREADS_MAX);
         break;
     case KEY_INFO:
         arguments->info = true;
@@ -185,7 +196,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         arguments->info = arguments->json = true;
         break;
     case KEY_FORCE:
-        options->force = true;
+        arguments->options.force = true;
         break;
     case KEY_COST:
         arguments->cost = argument;
@@ -200,7 +211,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         check_arguments(arguments, state);
         break;
     default:
-        return ARGP_ERR_UNKNOWN;
+        return parse_dial(key, argument, state);
     }
     return 0;
 }
