@@ -50,7 +50,7 @@ press ctrl+o d
 type_name damaged.stl
 title_is 'a.oct *' || fail "a name that leads nowhere did something"
 click 400 300
-until_true "carving does not go on" [ "$(grep -c '^step' "$journal")" = 2 ]
+until_true "carving does not go on" journal_counts step 2
 
 # saved and opened in one
 press ctrl+o s

@@ -16,27 +16,10 @@ open_sculptor() # ARGUMENT...
 
 settle() { sleep 0.3; }
 
-press() # KEY...
-{
-    xdotool key "$@"
-    settle
-}
-
-click() # X Y
-{
-    at "$1" "$2"
-    xdotool click 1
-    settle
-}
-
 drag() # BUTTON X0 Y0 X1 Y1
 {
-    at "$2" "$3"
-    xdotool mousedown "$1"
-    at $((($2 + $4) / 2)) $((($3 + $5) / 2))
-    at "$4" "$5"
-    xdotool mouseup "$1"
-    settle
+    pull "$@"
+    release "$1"
 }
 
 # until_true MESSAGE COMMAND...: for ten seconds
@@ -56,6 +39,9 @@ journal=a.oct.journal
 
 # journal_has PATTERN: the operation is in the journal, at the moment it is done
 journal_has() { until_true "no line of the journal matches: $1" grep -Eqs -- "$1" "$journal"; }
+
+# journal_counts WORD COUNT: so many of the journal's lines begin with it
+journal_counts() { [ "$(grep -c "^$1" "$journal")" = "$2" ]; }
 
 # The title is that of the sculpture, with a star while there is work that is not saved.
 title_is() { [ "$(xdotool getwindowname "$window")" = "$1 - balloon-sculpt" ]; }

@@ -42,3 +42,43 @@ ends()
 }
 
 at() { xdotool mousemove --sync --window "$window" "$1" "$2"; }
+
+press() # KEY...
+{
+    xdotool key "$@"
+    settle
+}
+
+click() # X Y
+{
+    at "$1" "$2"
+    xdotool click 1
+    settle
+}
+
+pull() # BUTTON X0 Y0 X1 Y1: takes hold at the first place and is at the second, the button still down
+{
+    at "$2" "$3"
+    xdotool mousedown "$1"
+    at $((($2 + $4) / 2)) $((($3 + $5) / 2))
+    at "$4" "$5"
+}
+
+release() # BUTTON
+{
+    xdotool mouseup "$1"
+    settle
+}
+
+# The display goes away, and the program ends at once.
+without_display()
+{
+    kill "$SERVER"
+    tries=0
+    while kill -0 "$program" 2>/dev/null; do
+        tries=$((tries + 1))
+        [ $tries -lt 200 ] || { kill -9 "$program"; fail "it goes on without a display"; }
+        sleep 0.05
+    done
+    ends 1
+}

@@ -51,30 +51,13 @@ wait_title()
     done
 }
 
-press() # KEY...
-{
-    xdotool key "$@"
-    settle
-}
-
 pause() { press space; wait_title 'paused'; settle; }
-
-click() # X Y
-{
-    at "$1" "$2"
-    xdotool click 1
-    settle
-}
 
 drag() # BUTTON X0 Y0 X1 Y1
 {
-    at "$2" "$3"
-    xdotool mousedown "$1"
-    at $((($2 + $4) / 2)) $((($3 + $5) / 2))
-    at "$4" "$5"
+    pull "$@"
     settle
-    xdotool mouseup "$1"
-    settle
+    release "$1"
 }
 
 # Ends it; the log is there then.

@@ -32,7 +32,7 @@ for found in *; do
 done
 # and carving goes on
 click 400 300
-until_true "the journal ends with the failed save" [ "$(grep -c '^step' "$journal")" = 2 ]
+until_true "the journal ends with the failed save" journal_counts step 2
 press ctrl+q
 picture unsaved
 kill -0 "$program" || fail "the window closed with unsaved work"
@@ -51,7 +51,7 @@ press Return
 press Return
 picture saving
 click 400 300
-until_true "no carving while a file is written" [ "$(grep -c '^step' "$journal")" = 2 ]
+until_true "no carving while a file is written" journal_counts step 2
 kill -9 "$program"
 wait "$program" 2>/dev/null || true
 balloon-sculpt -q --recover a.oct -o recovered.oct
@@ -85,7 +85,7 @@ journal=slow.oct.journal
 [ ! -e a.oct.journal ] && [ ! -e a.oct.journal-base ] || fail "the old journal is still there"
 press Escape
 press ctrl+z ctrl+z
-until_true "undo is not in the journal that went along" [ "$(grep -c '^undo' "$journal")" = 2 ]
+until_true "undo is not in the journal that went along" journal_counts undo 2
 kill -9 "$program"
 wait "$program" 2>/dev/null || true
 rm slow.oct

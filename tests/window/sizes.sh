@@ -11,7 +11,7 @@ carves_at()
     settle
     steps=$((steps + 1))
     click "$1" "$2"
-    until_true "a click in a window $3 does nothing" [ "$(grep -c '^step' "$journal")" = $steps ]
+    until_true "a click in a window $3 does nothing" journal_counts step $steps
     picture "$3"
 }
 
