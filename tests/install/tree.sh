@@ -22,5 +22,14 @@ done
 for script in "$share"/balloon/sculptures/*.chips; do
     expect 0 "$root/$BINDIR/balloon-sculpt" --script "$script" -o "$(basename "$script" .chips).oct"
 done
-others=$(find root -type f -o -type l | grep -vE "/(bin|man1|applications|metainfo|apps|packages|completions|scenes|sculptures)/[^/]+\$" || true)
+
+# What shares runs out finds the simulator in PATH, and its own helpers beside it.
+expect 0 env PATH="$PWD/$root/$BINDIR:$PATH" "$share/balloon/sweep" "$share/balloon/scenes/sphere.cfg" --out swept --set time.end=0.1 \
+    'balloons[0].spring=10:40:2'
+stdout_has '^2 of 2 points are there: '
+grep -qx "$PWD/$root/$BINDIR/balloon-sim" swept/settings || fail "it ran $(head -n 1 swept/settings)"
+expect 0 "$share/balloon/film" --help
+stdout_has '^film SCENE --out DIR '
+
+others=$(find root -type f -o -type l | grep -vE "/(bin|man1|applications|metainfo|apps|packages|completions|scenes|sculptures)/[^/]+\$|/balloon/(sweep|sweep-map|film|share.sh)\$" || true)
 [ -z "$others" ] || fail "installed, and not known here: $others"
