@@ -27,7 +27,8 @@
 
 struct bending_kernels;
 
-/* Where a hinge's x2 and x3 are: corners of its triangles. x0 and x1 are its edge's points; the first triangle has them in this order. */
+/* Where a hinge's x2 and x3 are: corners of its triangles, whose numbers are less the balloon's triangle_begin. x0 and x1 are its edge's
+ * points; the first triangle has them in this order. */
 struct bending_corners {
     uint32_t triangle[2];
     unsigned char corner[2];
@@ -39,51 +40,63 @@ struct bending_reach {
     uint32_t before, count;
 };
 
+/* What the passes over triangles and hinges leave for each other (bending_passes.h). Owned. */
+struct bending_passes {
+    double (*normal)[4];             /* [triangles] */
+    double *cotangent[3], *swing[3]; /* [triangles] each; swing NULL where nothing is damped */
+    double *least;                   /* [triangles] below that |n|^2 a hinge takes it for crushed */
+    double *pull;                    /* [edges, and those that cuts may bring] */
+    bool *
+        crushed; /* [part_count] some triangle is; a line of the cache would be shared, but is hardly ever written */
+};
+
 /* What a balloon's hinges are; balloon->bending, NULL where none are asked for. Numbers of hinges are those of their edges less edge_begin. */
 struct bending {
-    uint32_t count;    /* edges when the simulation was opened */
-    double (*rest)[4]; /* [count] w cos t0, w sin t0, r/|n|^2, 1/slope at rest; 0: no hinge. Owned. */
+    uint32_t count;  /* edges when the simulation was opened */
+    double *rest[4]; /* [count] each: w cos t0, w sin t0, r/|n|^2, 1/slope at rest; 0: no hinge. Owned. */
     struct bending_corners *corners; /* [count] owned */
     uint32_t (*point)[4];            /* [count] x0 to x3, as long as nothing is cut. Owned. */
     struct bending_reach *reach;     /* [part_count] owned */
     double *range;  /* [part_count] largest slope over that at rest, by the last forces. Owned. */
     double bounded; /* what the guard takes that for */
     double damping; /* s */
+    struct bending_passes passes;
     const struct bending_kernels *kernels;
 };
 
-/* What says which hinges are there and where, of one balloon: so that loops need not look it up again and again. */
+/* What says which hinges are there and where, of one balloon: so that loops need not look it up again and again. Tables of triangles begin with
+ * the balloon's first. */
 struct bending_view {
     const unsigned char *edge_active, *triangle_active;
     const uint32_t (*edge_point)[2], (*triangle_point)[3], (*triangle_edge)[3];
-    const double (*rest)[4];
+    const double *shrink; /* rest[2] */
     const struct bending_corners *corners;
     const uint32_t (*point)[4];
     uint32_t first, count; /* edges of the balloon */
-    bool cut;              /* it may have been */
+    bool cut;              /* it has been, somewhere: each cut brings an edge */
 };
 
 static inline struct bending_view bending_look(const struct sim *sim, const struct sim_balloon *balloon)
 {
     const struct bending *b = balloon->bending;
     return (struct bending_view){sim->edge_active,
-                                 sim->triangle_active,
+                                 sim->triangle_active + balloon->triangle_begin,
                                  (const uint32_t(*)[2])sim->edge_point,
-                                 (const uint32_t(*)[3])sim->triangle_point,
-                                 (const uint32_t(*)[3])sim->triangle_edge,
-                                 (const double(*)[4])b->rest,
+                                 (const uint32_t(*)[3])sim->triangle_point + balloon->triangle_begin,
+                                 (const uint32_t(*)[3])sim->triangle_edge + balloon->triangle_begin,
+                                 b->rest[2],
                                  b->corners,
                                  (const uint32_t(*)[4])b->point,
                                  balloon->edge_begin,
                                  b->count,
-                                 balloon->topology != NULL};
+                                 balloon->edge_end - balloon->edge_begin > b->count};
 }
 
 /* Whether a hinge is there; `edge` is a number in sim's tables. */
 static inline bool bending_holds(const struct bending_view *v, uint32_t edge)
 {
     const uint32_t hinge = edge - v->first;
-    if (hinge >= v->count || v->rest[hinge][2] == 0 || !v->edge_active[edge])
+    if (hinge >= v->count || v->shrink[hinge] == 0 || !v->edge_active[edge])
         return false;
     const struct bending_corners *c = &v->corners[hinge];
     if (!v->triangle_active[c->triangle[0]] || !v->triangle_active[c->triangle[1]])

@@ -60,26 +60,19 @@ INLINE bool any_is_crushed(const struct spans *s, lanes shrink)
     return lanes_any((lane_mask)(lanes_min(lanes_dot(n1, n1), lanes_dot(n2, n2)) * shrink < 1));
 }
 
-/* `rest` is what struct bending keeps of each. `crushed`: a triangle may be, as any_is_crushed() says. */
-INLINE struct hinge hinge_of(const struct spans *s, const row rest[4], bool crushed)
+/* `rest` is what struct bending keeps of each. */
+INLINE struct hinge hinge_of(const struct spans *s, const lanes rest[4])
 {
     struct hinge h = {.at = *s,
-                      .rest_cosine = (lanes)rest[0],
-                      .rest_sine = (lanes)rest[1],
-                      .kept = lanes_all(1),
-                      .shrink = (lanes)rest[2],
-                      .at_rest = (lanes)rest[3]};
+                      .square = no_less(lanes_dot(s->e, s->e)),
+                      .rest_cosine = rest[0],
+                      .rest_sine = rest[1],
+                      .shrink = rest[2],
+                      .at_rest = rest[3]};
     const struct lanes3 n1 = lanes_cross(s->e, s->d2), n2 = lanes_cross(s->d3, s->e);
-    lanes q1 = lanes_dot(n1, n1), q2 = lanes_dot(n2, n2), r1 = h.kept, r2 = h.kept;
-    h.square = lanes_dot(s->e, s->e);
-    if (crushed) {
-        q1 = no_less(q1);
-        q2 = no_less(q2);
-        h.square = no_less(h.square);
-        r1 = lanes_min(q1 * h.shrink, r1);
-        r2 = lanes_min(q2 * h.shrink, r2);
-        h.kept = r1 * (2 - r1) * (r2 * (2 - r2));
-    }
+    const lanes q1 = no_less(lanes_dot(n1, n1)), q2 = no_less(lanes_dot(n2, n2));
+    const lanes r1 = lanes_min(q1 * h.shrink, lanes_all(1)), r2 = lanes_min(q2 * h.shrink, lanes_all(1));
+    h.kept = r1 * (2 - r1) * (r2 * (2 - r2));
     const lanes product = q1 * q2, i = 1 / (product * h.square), i12 = i * h.square; /* one division */
     const lanes i1 = i12 * q2, i2 = i12 * q1, inverse = lanes_sqrt(i12), length = lanes_sqrt(h.square);
     h.inverse_square = i * product;

@@ -4,20 +4,22 @@
  */
 #include "sim/bending_kernels.h"
 #include "sim/bending_hinge.h"
+#include "sim/bending_passes.h"
 #include "sim/topology.h"
 
 /* Up to four hinges and their points, the last ones filled up with the first. */
 struct group {
-    const double (*rest[4])[4];
-    uint32_t point[4][4];
+    uint32_t hinge[4], point[4][4];
     int count;
 };
 
 /* What a loop over hinges works with. */
 struct work {
     const row *position, *velocity;
+    const double *rest[4];
     double damping;
     uint32_t begin, own; /* points of the part */
+    bool crushed;        /* of the hinges only those with crushed triangles */
     row *out;
     const struct jacobian_product *product;
     struct bending_sums sums;
@@ -26,8 +28,11 @@ struct work {
 
 INLINE struct work work_of(const struct sim *sim, const struct sim_balloon *balloon)
 {
-    return (struct work){
-        .position = sim->rows.position, .velocity = sim->rows.velocity, .damping = balloon->bending->damping};
+    const struct bending *b = balloon->bending;
+    return (struct work){.position = sim->rows.position,
+                         .velocity = sim->rows.velocity,
+                         .rest = {b->rest[0], b->rest[1], b->rest[2], b->rest[3]},
+                         .damping = b->damping};
 }
 
 INLINE struct spans spans_of(const row *rows, const struct group *g)
@@ -50,12 +55,11 @@ INLINE struct spans scaled_spans_of(double factor, const double (*rows)[4], cons
     return (struct spans){times(f, s.e), times(f, s.d2), times(f, s.d3)};
 }
 
-INLINE void rest_of(const struct group *g, row rest[4])
+INLINE void rest_of(const struct work *work, const struct group *g, lanes rest[4])
 {
-    row in[4];
-    for (int i = 0; i < 4; i++)
-        in[i] = *(const row *)g->rest[i];
-    lanes_turn(in, rest);
+    for (int k = 0; k < 4; k++)
+        for (int i = 0; i < 4; i++)
+            rest[k][i] = work->rest[k][g->hinge[i]];
 }
 
 typedef uint32_t quad __attribute__((vector_size(4 * sizeof(uint32_t))));
@@ -97,51 +101,17 @@ INLINE void add_to_points(const struct work *work, const struct group *g, const 
     }
 }
 
-/* `crushed` and `damped` are known when it is compiled. */
-INLINE void group_forces(struct work *work, const struct group *g, const struct spans *s, const row rest[4],
-                         bool crushed, bool damped)
+static void crushed_forces(struct work *work, const struct group *g)
 {
-    const struct hinge h = hinge_of(s, rest, crushed);
-    lanes torque = h.sine;
-    if (damped) {
-        const struct spans speed = spans_of(work->velocity, g);
-        torque += work->damping * weight_of(&h) * rate_of(&h, &speed);
-    }
+    const struct spans s = spans_of(work->position, g), speed = spans_of(work->velocity, g);
+    lanes rest[4];
+    rest_of(work, g, rest);
+    const struct hinge h = hinge_of(&s, rest);
+    const lanes torque = h.sine + work->damping * weight_of(&h) * rate_of(&h, &speed);
     struct pulls pulls = torque_pulls(&h, h.kept * torque);
-    if (crushed)
-        add_pulls(&pulls, crushing_pulls(&h));
+    add_pulls(&pulls, crushing_pulls(&h));
     add_to_points(work, g, &pulls);
     work->range = lanes_max(work->range, slope_of(&h));
-}
-
-/* Seldom. */
-static __attribute__((noinline)) void crushed_forces(struct work *work, const struct group *g)
-{
-    const struct spans s = spans_of(work->position, g);
-    row rest[4];
-    rest_of(g, rest);
-    group_forces(work, g, &s, rest, true, true);
-}
-
-INLINE void any_forces(struct work *work, const struct group *g, bool damped)
-{
-    const struct spans s = spans_of(work->position, g);
-    row rest[4];
-    rest_of(g, rest);
-    if (any_is_crushed(&s, (lanes)rest[2]))
-        crushed_forces(work, g);
-    else
-        group_forces(work, g, &s, rest, false, damped);
-}
-
-static void still_forces(struct work *work, const struct group *g)
-{
-    any_forces(work, g, false);
-}
-
-static void damped_forces(struct work *work, const struct group *g)
-{
-    any_forces(work, g, true);
 }
 
 static void group_product(struct work *work, const struct group *g)
@@ -149,9 +119,9 @@ static void group_product(struct work *work, const struct group *g)
     const struct jacobian_product *product = work->product;
     const struct spans s = spans_of(work->position, g),
                        d = scaled_spans_of(product->a, (const double(*)[4])product->dx, g);
-    row rest[4];
-    rest_of(g, rest);
-    const struct hinge h = hinge_of(&s, rest, true);
+    lanes rest[4];
+    rest_of(work, g, rest);
+    const struct hinge h = hinge_of(&s, rest);
     struct wing_change c[2];
     wing_changes(&h, &d, c);
     const lanes turned = c[0].rate + c[1].rate, r1 = h.wing[0].left, r2 = h.wing[1].left;
@@ -175,9 +145,9 @@ static void group_product(struct work *work, const struct group *g)
 static void group_sums(struct work *work, const struct group *g)
 {
     const struct spans s = spans_of(work->position, g), speed = spans_of(work->velocity, g);
-    row rest[4];
-    rest_of(g, rest);
-    const struct hinge h = hinge_of(&s, rest, true);
+    lanes rest[4];
+    rest_of(work, g, rest);
+    const struct hinge h = hinge_of(&s, rest);
     const lanes rate = rate_of(&h, &speed), energy = h.kept * bent(&h),
                 power = work->damping * h.kept * weight_of(&h) * rate * rate;
     for (int i = 0; i < g->count; i++) {
@@ -192,9 +162,9 @@ typedef void group_handler(struct work *work, const struct group *g);
 INLINE void take(const struct bending_view *view, struct group *g, uint32_t edge, struct work *work,
                  group_handler *handle)
 {
-    if (!bending_holds(view, edge))
+    if (!bending_holds(view, edge) || (work->crushed && !is_crushed(view, work->position, edge)))
         return;
-    g->rest[g->count] = &view->rest[edge - view->first];
+    g->hinge[g->count] = edge - view->first;
     bending_points(view, edge, g->point[g->count++]);
     if (g->count == 4) {
         handle(work, g);
@@ -206,7 +176,7 @@ INLINE void take(const struct bending_view *view, struct group *g, uint32_t edge
 INLINE void take_last(struct group *g, struct work *work, group_handler *handle)
 {
     for (int i = g->count; i < 4; i++) {
-        g->rest[i] = g->rest[0];
+        g->hinge[i] = g->hinge[0];
         for (int k = 0; k < 4; k++)
             g->point[i][k] = g->point[0][k];
     }
@@ -224,12 +194,12 @@ static void each_late_group(const struct sim *sim, const struct sim_part *part, 
     struct group g = {.count = 0};
     for (uint32_t i = 0; i < part->triangle_in_count; i++)
         for (int k = 0; k < 3; k++) {
-            const uint32_t triangle = part->triangle_in[i], edge = sim->triangle_edge[triangle][k],
-                           hinge = edge - b->edge_begin;
+            const uint32_t triangle = part->triangle_in[i] - b->triangle_begin,
+                           edge = view.triangle_edge[triangle][k], hinge = edge - b->edge_begin;
             if (hinge >= b->bending->count)
                 continue;
             const uint32_t first = b->bending->corners[hinge].triangle[0];
-            if (triangle == first || !b->topology->late_triangle[first - b->triangle_begin])
+            if (triangle == first || !b->topology->late_triangle[first])
                 take(&view, &g, edge, work, handle);
         }
     take_last(&g, work, handle);
@@ -258,16 +228,17 @@ INLINE void each_group(const struct sim *sim, const struct sim_part *part, struc
     take_last(&g, work, handle);
 }
 
-static void forces(struct sim *sim, const struct sim_part *part)
+static void forces(struct sim *sim, const struct sim_part *part, bool crushed)
 {
+    double *range = &part->balloon->bending->range[part - sim->parts];
+    add_forces(sim, part);
+    if (!crushed)
+        return;
     struct work work = work_of(sim, part->balloon);
     work.out = sim->rows.force;
-    if (work.damping > 0)
-        each_group(sim, part, &work, damped_forces);
-    else
-        each_group(sim, part, &work, still_forces);
-    part->balloon->bending->range[part - sim->parts] = fmax(fmax(work.range[0], work.range[1]),
-                                                            fmax(work.range[2], work.range[3]));
+    work.crushed = true;
+    each_group(sim, part, &work, crushed_forces);
+    *range = fmax(*range, largest_of(work.range));
 }
 
 static void product(struct sim *sim, const struct sim_part *part, const struct jacobian_product *product)
@@ -291,4 +262,4 @@ static struct bending_sums sums(const struct sim *sim, const struct sim_balloon 
 }
 
 extern const struct bending_kernels SIM_BENDING;
-const struct bending_kernels SIM_BENDING = {forces, product, sums};
+const struct bending_kernels SIM_BENDING = {triangle_normals, hinge_pulls, forces, product, sums};

@@ -12,8 +12,11 @@ struct bending_sums {
 };
 
 struct bending_kernels {
-    /* Adds the forces of all hinges that reach into the part to those of its points. */
-    void (*forces)(struct sim *sim, const struct sim_part *part);
+    /* The forces, in three passes over all parts (bending_passes.h): of the part's triangles; of its hinges, `crushed` where the first
+     * said so of any part; and what is added to the forces on its points. */
+    void (*triangles)(struct sim *sim, const struct sim_part *part);
+    void (*hinges)(struct sim *sim, const struct sim_part *part, bool crushed);
+    void (*forces)(struct sim *sim, const struct sim_part *part, bool crushed);
     /* Adds a K dx + b D dv to the part's rows of product->out. */
     void (*product)(struct sim *sim, const struct sim_part *part, const struct jacobian_product *product);
     /* Of the edges from begin to end. */

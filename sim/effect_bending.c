@@ -28,10 +28,11 @@ static bool wanted(const struct scene_balloon *balloon)
 
 /* Of a triangle and its corner across from an edge: to the hinge as its first where the triangle runs along the edge, else as its second.
  * How many it has then. */
-static int add_wing(const struct sim *sim, struct bending_corners *c, uint32_t t, int corner, uint32_t edge)
+static int add_wing(const struct sim *sim, struct bending_corners *c, uint32_t triangle_begin, uint32_t t,
+                    int corner, uint32_t edge)
 {
     const bool first = sim->triangle_point[t][(corner + 1) % 3] == sim->edge_point[edge][0];
-    c->triangle[!first] = t;
+    c->triangle[!first] = t - triangle_begin;
     c->corner[!first] = (unsigned char)corner;
     return first ? 1 : 2;
 }
@@ -42,7 +43,8 @@ static void find_corners(const struct sim *sim, const struct sim_balloon *b, uns
     for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++)
         for (int k = 0; k < 3; k++) {
             const uint32_t edge = sim->triangle_edge[t][(k + 1) % 3], hinge = edge - b->edge_begin;
-            wings[hinge] |= (unsigned char)add_wing(sim, &b->bending->corners[hinge], t, k, edge);
+            wings[hinge] |= (unsigned char)add_wing(sim, &b->bending->corners[hinge], b->triangle_begin, t, k,
+                                                    edge);
         }
 }
 
@@ -51,7 +53,8 @@ static void find_points(const struct sim *sim, const struct sim_balloon *b, uint
     const struct bending_corners *c = &b->bending->corners[hinge];
     for (int k = 0; k < 2; k++) {
         b->bending->point[hinge][k] = sim->edge_point[b->edge_begin + hinge][k];
-        b->bending->point[hinge][k + 2] = sim->triangle_point[c->triangle[k]][c->corner[k]];
+        b->bending->point[hinge][k + 2] =
+            sim->triangle_point[b->triangle_begin + c->triangle[k]][c->corner[k]];
     }
 }
 
@@ -66,8 +69,9 @@ static double wing_slope(const double d[3], const double e[3], double square)
 static void set_rest(const struct sim *sim, const struct sim_balloon *b, uint32_t hinge)
 {
     const struct scene_bending *block = &b->scene->bending;
-    double *rest = b->bending->rest[hinge], e[3], d2[3], d3[3], n1[3], n2[3];
-    const uint32_t *p = b->bending->point[hinge];
+    struct bending *h = b->bending;
+    double e[3], d2[3], d3[3], n1[3], n2[3];
+    const uint32_t *p = h->point[hinge];
     vec3_sub(sim->position[p[1]], sim->position[p[0]], e);
     vec3_sub(sim->position[p[2]], sim->position[p[0]], d2);
     vec3_sub(sim->position[p[3]], sim->position[p[0]], d3);
@@ -78,10 +82,15 @@ static void set_rest(const struct sim *sim, const struct sim_balloon *b, uint32_
         return;
     const double square = vec3_dot(e, e), w = 2 * block->stiffness * square / (twice1 + twice2);
     const bool flat = block->rest == SCENE_FLAT;
-    rest[0] = w * (flat ? 1 : vec3_dot(n1, n2) / twice1 / twice2);
-    rest[1] = w * (flat ? 0 : -sqrt(square) * vec3_dot(n1, d3) / twice1 / twice2);
-    rest[2] = 1 / (least * least);
-    rest[3] = 1 / (square * (wing_slope(d2, e, twice1 * twice1) + wing_slope(d3, e, twice2 * twice2)));
+    h->rest[0][hinge] = w * (flat ? 1 : vec3_dot(n1, n2) / twice1 / twice2);
+    h->rest[1][hinge] = w * (flat ? 0 : -sqrt(square) * vec3_dot(n1, d3) / twice1 / twice2);
+    h->rest[2][hinge] = 1 / (least * least);
+    for (int k = 0; k < 2; k++) {
+        double *below = &h->passes.least[h->corners[hinge].triangle[k]];
+        *below = fmax(*below, (1 + 1e-9) * least * least); /* whatever the rounding */
+    }
+    h->rest[3][hinge] = 1 /
+                        (square * (wing_slope(d2, e, twice1 * twice1) + wing_slope(d3, e, twice2 * twice2)));
 }
 
 /* Whether a hinge of another part reaches into this one. */
@@ -102,7 +111,7 @@ static void find_reach(const struct sim_part *part, struct bending_reach *reach)
     for (uint32_t i = 0; i < b->bending->count; i++) {
         const uint32_t edge = b->edge_begin + i;
         const bool own = edge - part->edge_begin < part->edge_end - part->edge_begin;
-        if (own || b->bending->rest[i][2] == 0 || !reaches(part, edge))
+        if (own || b->bending->rest[2][i] == 0 || !reaches(part, edge))
             continue;
         if (reach->hinge)
             reach->hinge[reach->count] = edge;
@@ -130,6 +139,38 @@ static bool make_reach(struct sim *sim, const struct sim_balloon *b)
  * has become far too much. */
 static const double spare = 1.15, too_much = 2;
 
+static bool make_passes(struct sim *sim, const struct sim_balloon *b, struct bending *h)
+{
+    struct bending_passes *p = &h->passes;
+    const uint32_t triangles = b->triangle_end - b->triangle_begin;
+    p->normal = sim_table(sim, triangles, sizeof *p->normal);
+    p->least = sim_table(sim, triangles, sizeof *p->least);
+    p->pull = sim_table(sim, b->edge_room - b->edge_begin, sizeof *p->pull);
+    p->crushed = sim_table(sim, sim->part_count, sizeof *p->crushed);
+    bool room = p->normal && p->least && p->pull && p->crushed;
+    for (int k = 0; k < 3 && room; k++) {
+        p->cotangent[k] = sim_table(sim, triangles, sizeof *p->cotangent[k]);
+        if (h->damping > 0)
+            p->swing[k] = sim_table(sim, triangles, sizeof *p->swing[k]);
+        room = p->cotangent[k] && (h->damping == 0 || p->swing[k]);
+    }
+    return room;
+}
+
+static bool make_tables(struct sim *sim, const struct sim_balloon *b, struct bending *h)
+{
+    h->corners = sim_table(sim, h->count, sizeof *h->corners);
+    h->point = sim_table(sim, h->count, sizeof *h->point);
+    h->reach = sim_table(sim, sim->part_count, sizeof *h->reach);
+    h->range = sim_table(sim, sim->part_count, sizeof *h->range);
+    bool room = h->corners && h->point && h->reach && h->range;
+    for (int k = 0; k < 4 && room; k++) {
+        h->rest[k] = sim_table(sim, h->count, sizeof *h->rest[k]);
+        room = h->rest[k];
+    }
+    return room && make_passes(sim, b, h);
+}
+
 static enum status open(struct sim *sim, struct sim_balloon *b, struct error *err)
 {
     if (b->scene->bending.stiffness == 0)
@@ -141,13 +182,8 @@ static enum status open(struct sim *sim, struct sim_balloon *b, struct error *er
     h->damping = b->scene->bending.damping;
     h->bounded = spare;
     h->kernels = find_kernels();
-    h->rest = sim_table(sim, h->count, sizeof *h->rest);
-    h->corners = sim_table(sim, h->count, sizeof *h->corners);
-    h->point = sim_table(sim, h->count, sizeof *h->point);
-    h->reach = sim_table(sim, sim->part_count, sizeof *h->reach);
-    h->range = sim_table(sim, sim->part_count, sizeof *h->range);
     unsigned char *wings = calloc(h->count, 1);
-    bool room = h->rest && h->corners && h->point && h->reach && h->range && wings;
+    bool room = wings && make_tables(sim, b, h);
     if (room) {
         find_corners(sim, b, wings);
         for (uint32_t i = 0; i < h->count; i++)
@@ -161,6 +197,18 @@ static enum status open(struct sim *sim, struct sim_balloon *b, struct error *er
     return room ? STATUS_OK : error_no_memory(err, "the hinges");
 }
 
+static void free_passes(struct bending_passes *p)
+{
+    for (int k = 0; k < 3; k++) {
+        free(p->cotangent[k]);
+        free(p->swing[k]);
+    }
+    free(p->normal);
+    free(p->least);
+    free(p->pull);
+    free(p->crushed);
+}
+
 static void close(struct sim *sim, struct sim_balloon *b)
 {
     struct bending *h = b->bending;
@@ -168,7 +216,9 @@ static void close(struct sim *sim, struct sim_balloon *b)
         return;
     for (size_t i = 0; h->reach && i < sim->part_count; i++)
         free(h->reach[i].hinge);
-    free(h->rest);
+    for (int k = 0; k < 4; k++)
+        free(h->rest[k]);
+    free_passes(&h->passes);
     free(h->corners);
     free(h->point);
     free(h->reach);
@@ -177,16 +227,41 @@ static void close(struct sim *sim, struct sim_balloon *b)
     b->bending = NULL;
 }
 
+struct pass {
+    const struct sim_balloon *balloon;
+    bool crushed;
+};
+
+static void normals_of_part(struct sim *sim, const struct sim_part *part, void *context)
+{
+    if (part->balloon == ((struct pass *)context)->balloon)
+        part->balloon->bending->kernels->triangles(sim, part);
+}
+
+static void pulls_of_part(struct sim *sim, const struct sim_part *part, void *context)
+{
+    const struct pass *pass = context;
+    if (part->balloon == pass->balloon)
+        part->balloon->bending->kernels->hinges(sim, part, pass->crushed);
+}
+
 static void forces_of_part(struct sim *sim, const struct sim_part *part, void *context)
 {
-    if (part->balloon == context)
-        part->balloon->bending->kernels->forces(sim, part);
+    const struct pass *pass = context;
+    if (part->balloon == pass->balloon)
+        part->balloon->bending->kernels->forces(sim, part, pass->crushed);
 }
 
 static void apply(struct sim *sim, struct sim_balloon *b)
 {
-    if (b->bending)
-        sim_each_part(sim, forces_of_part, b);
+    struct pass pass = {b, false};
+    if (!b->bending)
+        return;
+    sim_each_part(sim, normals_of_part, &pass);
+    for (size_t i = 0; i < sim->part_count; i++)
+        pass.crushed |= sim->parts[i].balloon == b && b->bending->passes.crushed[i];
+    sim_each_part(sim, pulls_of_part, &pass);
+    sim_each_part(sim, forces_of_part, &pass);
 }
 
 struct job {
@@ -221,7 +296,7 @@ static void bound(const struct sim *sim, const struct sim_balloon *b, const stru
     for (uint32_t i = 0; i < h->count; i++) {
         if (!bending_holds(&view, b->edge_begin + i))
             continue;
-        const double *rest = h->rest[i], g = hypot(rest[0], rest[1]) * h->bounded / rest[3];
+        const double g = hypot(h->rest[0][i], h->rest[1][i]) * h->bounded / h->rest[3][i];
         uint32_t point[4];
         bending_points(&view, b->edge_begin + i, point);
         for (int k = 0; k < 4; k++) {

@@ -18,6 +18,7 @@
 
 typedef double lanes __attribute__((vector_size(4 * sizeof(double))));
 typedef int64_t lane_mask __attribute__((vector_size(4 * sizeof(int64_t)))); /* -1 where true, else 0 */
+typedef uint64_t lane_bits __attribute__((vector_size(4 * sizeof(uint64_t))));
 
 /* x, y and z of four vectors. */
 struct lanes3 {
@@ -30,11 +31,17 @@ static inline lanes lanes_all(double number)
 }
 
 /* Four numbers that follow each other in memory. */
+typedef double unaligned_lanes
+    __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double)), may_alias));
+
 static inline lanes lanes_at(const double *number)
 {
-    typedef double unaligned
-        __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double)), may_alias));
-    return (lanes) * (const unaligned *)number;
+    return (lanes) * (const unaligned_lanes *)number;
+}
+
+static inline void lanes_put(lanes numbers, double *to)
+{
+    *(unaligned_lanes *)to = (unaligned_lanes)numbers;
 }
 
 static inline lanes lanes_select(lane_mask mask, lanes where_true, lanes where_false)
