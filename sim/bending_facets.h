@@ -25,11 +25,6 @@ INLINE lanes packed_low(lanes both)
     return (lanes)((lane_mask)both << 32);
 }
 
-INLINE double largest_of(lanes a)
-{
-    return fmax(fmax(a[0], a[1]), fmax(a[2], a[3]));
-}
-
 INLINE lanes of_four(const double *table, const size_t index[4])
 {
     return (lanes){table[index[0]], table[index[1]], table[index[2]], table[index[3]]};

@@ -6,8 +6,6 @@
 
 #include "sim/lanes.h"
 
-#define INLINE static inline __attribute__((always_inline))
-
 INLINE struct lanes3 times(lanes factor, struct lanes3 a)
 {
     return (struct lanes3){factor * a.x, factor * a.y, factor * a.z};

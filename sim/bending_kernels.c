@@ -238,7 +238,7 @@ static void forces(struct sim *sim, const struct sim_part *part, bool crushed)
     work.out = sim->rows.force;
     work.crushed = true;
     each_group(sim, part, &work, crushed_forces);
-    *range = fmax(*range, largest_of(work.range));
+    *range = fmax(*range, lanes_largest(work.range));
 }
 
 static void product(struct sim *sim, const struct sim_part *part, const struct jacobian_product *product)

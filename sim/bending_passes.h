@@ -143,7 +143,7 @@ INLINE double put_all_pulls(struct sim *sim, const struct sim_part *part, bool c
         most = lanes_max(put_pulls(&w, &view, h, 4, damped), most);
     if (h < end)
         most = lanes_max(put_pulls(&w, &view, h, end - h, damped), most);
-    return largest_of(most);
+    return lanes_largest(most);
 }
 
 static void hinge_pulls(struct sim *sim, const struct sim_part *part, bool crushed)

@@ -8,6 +8,7 @@
 #include "common/vec3.h"
 #include "sim/effects.h"
 #include "sim/guard.h"
+#include "sim/sweep.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -129,12 +130,17 @@ static void product(struct sim *sim, struct sim_balloon *balloon, double a, doub
     sim_each_part(sim, product_part, &(struct product){a, b, dx, dv, df});
 }
 
-/* How fast any point and the air pass each other. Slower than a thousandth of an edge a step does not matter. */
+/* Slower than a thousandth of an edge a step does not matter. */
+static double least_speed(const struct sim *sim)
+{
+    return 1e-3 * sim->balloons[0].mean_rest_length / sim->whole_step;
+}
+
+/* How fast any point and the air pass each other. */
 static double fastest(const struct sim *sim)
 {
-    const double *wind = sim->scene->drag.wind,
-                 least = 1e-3 * sim->balloons[0].mean_rest_length / sim->whole_step;
-    double most = least * least;
+    const double *wind = sim->scene->drag.wind;
+    double most = least_speed(sim) * least_speed(sim);
     for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
         for (uint32_t p = b->point_begin; p < b->point_end; p++) {
             double w[3];
@@ -164,11 +170,27 @@ static void bound(const struct sim *sim, const struct sim_balloon *balloon, cons
     }
 }
 
+static bool is_bounded(const struct sim *sim, double least, double most)
+{
+    return most <= 2 * sim->drag->bound_speed && least >= sim->drag->bound_speed / 8;
+}
+
+/* Where the sweep has seen how far points moved in this step, and so how fast they are, mostly without a look at each: with v the fastest of
+ * them and w the wind's speed, the fastest that any passes the air is from |v - w| to v + w. The margin is for rounding. */
+static bool is_surely_bounded(const struct sim *sim)
+{
+    const double v = sweep_saw_farthest(sim) / sim->taken, w = vec3_length(sim->scene->drag.wind);
+    return v < INFINITY && is_bounded(sim, fmax((1 - 1e-6) * fabs(v - w), least_speed(sim)),
+                                      fmax((1 + 1e-6) * (v + w), least_speed(sim)));
+}
+
 static void after(struct sim *sim, struct sim_balloon *balloon)
 {
     (void)balloon;
-    const double speed = is_felt(sim) ? fastest(sim) : sim->drag->bound_speed;
-    if (!(speed <= 2 * sim->drag->bound_speed && speed >= sim->drag->bound_speed / 8))
+    if (!is_felt(sim) || is_surely_bounded(sim))
+        return;
+    const double speed = fastest(sim);
+    if (!is_bounded(sim, speed, speed))
         guard_outdated(sim);
 }
 

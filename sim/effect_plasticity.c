@@ -5,9 +5,12 @@
  */
 #include "sim/effects.h"
 #include "sim/guard.h"
+#include "sim/kernels.h"
 #include "sim/ledger.h"
+#include "sim/sweep.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 
 static bool wanted(const struct scene_balloon *balloon)
@@ -37,15 +40,23 @@ static size_t blocks(struct sim *sim, struct sim_balloon *b, struct sim_block *b
     return 2;
 }
 
+/* Any number of a balloon's parts slip at once. */
+struct slide {
+    const struct sim_balloon *balloon;
+    atomic_bool any;
+};
+
 /* k (e - ds) = y + H (s + ds) for the way ds that is still to go, e the spring's elongation; no edge slips to less than nothing. */
-static void slip_edge(struct sim *sim, struct sim_balloon *b, uint32_t e)
+static bool slip_edge(struct sim *sim, struct sim_balloon *b, uint32_t e)
 {
+    if (!sim->edge_active[e])
+        return false;
     const struct scene_plasticity *block = &b->scene->plasticity;
     const double k = sim->current_spring_const[e], elongation = sim_edge_length(sim, e) - sim->rest_length[e];
     double *slipped = &b->slip[e - b->edge_begin];
     const double over = k * fabs(elongation) - block->yield - block->hardening * *slipped;
     if (!(over > 0) || !(k > 0))
-        return;
+        return false;
     const double way = over / (k + block->hardening);
     const double signed_way = fmax(copysign(way, elongation), -sim->rest_length[e] / 2);
     const double before = sim_spring_energy(sim, e);
@@ -53,14 +64,28 @@ static void slip_edge(struct sim *sim, struct sim_balloon *b, uint32_t e)
     sim->rest_length[e] += signed_way;
     if (sim->ledger.on)
         sim->scalar[sim->ledger.first + LEDGER_DISSIPATED] += before - sim_spring_energy(sim, e);
-    sim->changed = true;
+    return true;
 }
 
+static void slip_part(struct sim *sim, const struct sim_part *part, void *context)
+{
+    struct slide *slide = context;
+    if (part->balloon == slide->balloon && sim->kernels->slip_edges(sim, part, slip_edge) > 0)
+        atomic_store(&slide->any, true);
+}
+
+/* Where accounts are kept, part by part: what is added to them comes in the same order for any number of workers. */
 static void apply(struct sim *sim, struct sim_balloon *b)
 {
-    for (uint32_t e = b->edge_begin; e < b->edge_begin + b->slip_count; e++)
-        if (sim->edge_active[e])
-            slip_edge(sim, b, e);
+    struct slide slide = {.balloon = b};
+    if (sweep_saw_hardest(sim, b) < (1 - 1e-9) * b->scene->plasticity.yield)
+        return;
+    if (sim->ledger.on)
+        for (const struct sim_part *part = sim->parts; part < sim->parts + sim->part_count; part++)
+            slip_part(sim, part, &slide);
+    else
+        sim_each_part(sim, slip_part, &slide);
+    sim->changed |= slide.any;
 }
 
 const struct effect effect_plasticity = {.name = "plasticity",

@@ -3,6 +3,7 @@
  * Maxwell), of the units of the paper's figure 1. The arm pulls with f = c k_s (|l| - r - s), c the scene's ratio, where the dashpot has
  * given way by s and goes on doing so as ds/dt = (|l| - r - s)/T. Held at a length, the pull falls from (1 + c) to 1 times the
  * spring's as exp(-t/T); under a steady force it creeps. s is integrated along with the positions (sim->scalar).
+ * Pulls and rates are worked out where the springs' lengths are (forces_edges.h).
  */
 #include "common/vec3.h"
 #include "sim/effects.h"
@@ -59,33 +60,6 @@ static void each_arm(struct sim *sim, const struct sim_part *part,
     for (uint32_t e = part->edge_begin; e < part->edge_end; e++)
         if (sim->edge_active[e] && e - b->edge_begin < b->arm_count)
             work(sim, part, e, context);
-}
-
-static void pull(struct sim *sim, const struct sim_part *part, uint32_t e, void *context)
-{
-    (void)context;
-    const struct arm arm = arm_of(sim, part->balloon, e);
-    double f[3];
-    for (int i = 0; i < 3; i++)
-        f[i] = arm.constant * arm.elongation * arm.u[i];
-    add_to_ends(sim, part, e, f, sim->force);
-}
-
-static void forces_of_part(struct sim *sim, const struct sim_part *part, void *context)
-{
-    const struct sim_balloon *b = part->balloon;
-    if (b != context)
-        return;
-    each_arm(sim, part, pull, NULL);
-    for (uint32_t e = part->edge_begin; e < part->edge_end; e++)
-        if (e - b->edge_begin < b->arm_count)
-            sim->scalar_rate[b->arms + e - b->edge_begin] =
-                sim->edge_active[e] ? arm_of(sim, b, e).elongation / b->scene->viscosity.time : 0;
-}
-
-static void apply(struct sim *sim, struct sim_balloon *b)
-{
-    sim_each_part(sim, forces_of_part, b);
 }
 
 struct direction {
@@ -157,7 +131,6 @@ const struct effect effect_viscosity = {.name = "viscosity",
                                         .phase = EFFECT_FORCES,
                                         .wanted = wanted,
                                         .open = open,
-                                        .apply = apply,
                                         .product = product,
                                         .bound = bound,
                                         .energy = energy,

@@ -39,10 +39,11 @@ struct integrator {
     const char *source;
 };
 enum integrator_flags {
-    INTEGRATOR_IMPLICIT = 1,      /* solves equations at each step */
-    INTEGRATOR_SYMPLECTIC = 2,    /* keeps the energy of an undamped system bounded at fixed steps */
-    INTEGRATOR_ADAPTIVE = 4,      /* chooses its own steps within dt from time.tolerance */
-    INTEGRATOR_ONE_SWEEP = 8,     /* its sweep (sweep.h) moves the points all the way of a step */
+    INTEGRATOR_IMPLICIT = 1,   /* solves equations at each step */
+    INTEGRATOR_SYMPLECTIC = 2, /* keeps the energy of an undamped system bounded at fixed steps */
+    INTEGRATOR_ADAPTIVE = 4,   /* chooses its own steps within dt from time.tolerance */
+    INTEGRATOR_ONE_SWEEP =
+        8, /* its sweep (sweep.h) moves the points all the way of a step, at their new speeds */
     INTEGRATOR_SPRINGS_ONLY = 16, /* neither membranes nor bending skins: scenes that say so are refused */
 };
 extern const struct integrator *const integrators[]; /* NULL-terminated */

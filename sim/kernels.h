@@ -7,6 +7,8 @@
 
 #include "sim/sim.h"
 
+typedef bool edge_function(struct sim *sim, struct sim_balloon *balloon, uint32_t edge);
+
 /* Each sets or adds to rows of its part's points, chunk by chunk, and reads whatever it needs. */
 struct sim_kernels {
     void (*clear_points)(struct sim *sim, const struct sim_chunk *chunk);
@@ -22,6 +24,13 @@ struct sim_kernels {
     void (*push_areas)(struct sim *sim, const struct sim_part *part, double constant, const double *gradient);
     double (*sum_volume)(const struct sim *sim, uint32_t begin, uint32_t end,
                          const double *origin); /* 18 V */
+    /* What viscous springs add to their springs (effect_viscosity.c), with those of lower parts, for methods that move springs by themselves;
+     * edge_forces() has it in it. */
+    void (*arm_forces)(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk);
+    /* Calls it for the part's edges, in order, that may slip (effect_plasticity.c), and for some others; for how many it was true. */
+    uint32_t (*slip_edges)(struct sim *sim, const struct sim_part *part, edge_function *slip);
+    /* The smallest and largest coordinates of points from begin to end - 1, at least one, from sim->before to now. */
+    void (*box_ways)(const struct sim *sim, uint32_t begin, uint32_t end, double box[2][4]);
 };
 
 /* Parts 3 and 4 for a chunk: what the pressure does, or what it will act on. */

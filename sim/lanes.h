@@ -20,6 +20,9 @@ typedef double lanes __attribute__((vector_size(4 * sizeof(double))));
 typedef int64_t lane_mask __attribute__((vector_size(4 * sizeof(int64_t)))); /* -1 where true, else 0 */
 typedef uint64_t lane_bits __attribute__((vector_size(4 * sizeof(uint64_t))));
 
+/* For functions that are compiled once for each of what their callers know. */
+#define INLINE static inline __attribute__((always_inline))
+
 /* x, y and z of four vectors. */
 struct lanes3 {
     lanes x, y, z;
@@ -57,6 +60,16 @@ static inline lanes lanes_max(lanes a, lanes b)
 static inline lanes lanes_min(lanes a, lanes b)
 {
     return lanes_select(a < b, a, b);
+}
+
+static inline double lanes_largest(lanes a)
+{
+    return fmax(fmax(a[0], a[1]), fmax(a[2], a[3]));
+}
+
+static inline lanes lanes_size(lanes a)
+{
+    return (lanes)((lane_mask)a & INT64_MAX);
 }
 
 static inline bool lanes_any(lane_mask mask)

@@ -5,8 +5,6 @@
 #include "sim/membrane_kernels.h"
 #include "sim/membrane_response.h"
 
-#define INLINE static inline __attribute__((always_inline))
-
 /* Up to four active triangles, the last ones filled up with the first. */
 struct group {
     uint32_t triangle[4];

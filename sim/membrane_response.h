@@ -22,8 +22,7 @@ struct response {
     lanes aa, ad, dd; /* and the second derivatives */
 };
 
-static inline __attribute__((always_inline)) struct response mooney_response(const struct membrane_law *law,
-                                                                             struct stretched s, int asked)
+INLINE struct response mooney_response(const struct membrane_law *law, struct stretched s, int asked)
 {
     const double c1 = law->c1 / 2, c2 = law->c2 / 2;
     const lanes i = 1 / s.d;
@@ -38,8 +37,7 @@ static inline __attribute__((always_inline)) struct response mooney_response(con
 }
 
 /* Past 99 % of its limit W goes on as a parabola in I1: a trial state may be anywhere. */
-static inline __attribute__((always_inline)) struct response gent_response(const struct membrane_law *law,
-                                                                           struct stretched s, int asked)
+INLINE struct response gent_response(const struct membrane_law *law, struct stretched s, int asked)
 {
     const double last = .99, slope = 1 / (1 - last);
     const lanes i = 1 / s.d, y = (s.a + i - 3) * (1 / law->limit);
@@ -148,8 +146,8 @@ static inline struct response ogden_response(const struct membrane_law *law, str
     return w;
 }
 
-static inline __attribute__((always_inline)) struct response
-law_response(const struct membrane_law *law, enum membrane_kind kind, struct stretched s, int asked)
+INLINE struct response law_response(const struct membrane_law *law, enum membrane_kind kind,
+                                    struct stretched s, int asked)
 {
     return kind == MEMBRANE_OGDEN  ? ogden_response(law, s, asked)
            : kind == MEMBRANE_GENT ? gent_response(law, s, asked)
@@ -157,8 +155,8 @@ law_response(const struct membrane_law *law, enum membrane_kind kind, struct str
 }
 
 /* Also where triangles are crushed (MEMBRANE_CRUSHED). */
-static inline __attribute__((always_inline)) struct response
-full_response(const struct membrane_law *law, enum membrane_kind kind, struct stretched s, int asked)
+INLINE struct response full_response(const struct membrane_law *law, enum membrane_kind kind,
+                                     struct stretched s, int asked)
 {
     const double least = MEMBRANE_CRUSHED;
     const lane_mask crushed = (lane_mask)(s.d < least);
@@ -184,10 +182,8 @@ full_response(const struct membrane_law *law, enum membrane_kind kind, struct st
  *     w' = W_a + q2 W_D (since L2 is where W is least),   w'' = dw'/dq + dw'/dq2 dq2/dq,   q2 = q^-1/2,
  * and dq/da = q/r, dq/dD = -1/r. Nothing is held where q < 1.
  */
-static inline __attribute__((always_inline)) struct response wrinkled_response(const struct membrane_law *law,
-                                                                               enum membrane_kind kind,
-                                                                               struct stretched s, lanes r,
-                                                                               int asked)
+INLINE struct response wrinkled_response(const struct membrane_law *law, enum membrane_kind kind,
+                                         struct stretched s, lanes r, int asked)
 {
     const lanes true_q = .5 * (s.a + r), q = lanes_max(true_q, lanes_all(1)), root = lanes_sqrt(q),
                 q2 = 1 / root;
@@ -216,8 +212,8 @@ static inline lanes blend(lane_mask mask, double share, lanes b, lanes a)
 }
 
 /* The law with wrinkling: taut where L2 >= L1^-1/2, which is D^2 >= q, and surely where D^2 >= a. */
-static inline __attribute__((always_inline)) struct response
-membrane_response(const struct membrane_law *law, enum membrane_kind kind, struct stretched s, int asked)
+INLINE struct response membrane_response(const struct membrane_law *law, enum membrane_kind kind,
+                                         struct stretched s, int asked)
 {
     struct response w = full_response(law, kind, s, asked);
     const lanes square = s.d * s.d;

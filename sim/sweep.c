@@ -52,6 +52,17 @@ bool sweep_saw_none_overlong(const struct sim *sim)
     return none;
 }
 
+/* Likewise. */
+double sweep_saw_hardest(const struct sim *sim, const struct sim_balloon *balloon)
+{
+    double hardest = sim->swept ? 0 : INFINITY;
+    const double longer = (2 + 1e-9) * farthest(sim);
+    for (size_t i = 0; i < sim->part_count; i++)
+        if (sim->parts[i].balloon == balloon)
+            hardest = fmax(hardest, sim->seen[i].hardest + sim->seen[i].stiffest * longer);
+    return hardest;
+}
+
 double sweep_saw_farthest(const struct sim *sim)
 {
     return sim->swept && sim->integrator->flags & INTEGRATOR_ONE_SWEEP ? farthest(sim) : INFINITY;

@@ -18,8 +18,10 @@
 /* What a part's sweep has seen; a line of the cache each. */
 struct sim_seen {
     _Alignas(64) row
-        energy;   /* twice the kinetic energy, by coordinate; not a number where a place or a speed is none */
-    double over;  /* the most by which an edge was longer than it may be, when forces were worked out */
+        energy;  /* twice the kinetic energy, by coordinate; not a number where a place or a speed is none */
+    double over; /* the most by which an edge was longer than it may be, when forces were worked out */
+    double hardest,
+        stiffest; /* of what slips or is viscous: the largest pull or push of a spring then, and the largest spring constant */
     double moved; /* the square of the farthest that a point has moved since */
 };
 
@@ -55,6 +57,9 @@ void sweep_part(struct sim *sim, const struct sim_part *part, void *move);
  * energy to round-off; else false, and INFINITY. */
 bool sweep_saw_none_overlong(const struct sim *sim);
 double sweep_saw_energy(const struct sim *sim);
+
+/* Likewise: the most that a spring of the balloon pulls or pushes with now, where that was watched; or INFINITY. */
+double sweep_saw_hardest(const struct sim *sim, const struct sim_balloon *balloon);
 
 /* Likewise: the farthest that a point has moved in this step, or INFINITY where that is not known. */
 double sweep_saw_farthest(const struct sim *sim);

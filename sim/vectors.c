@@ -2,6 +2,8 @@
 
 #include "common/threads.h"
 
+#include <string.h>
+
 struct operands {
     double (*y)[4], (*x)[4];
     double factor;
@@ -13,9 +15,8 @@ static void copy_part(struct sim *sim, const struct sim_part *part, void *contex
 {
     (void)sim;
     const struct operands o = *(struct operands *)context;
-    for (uint32_t p = part->point_begin; p < part->point_end; p++)
-        for (int i = 0; i < 4; i++)
-            o.y[p][i] = o.x[p][i];
+    memcpy(o.y[part->point_begin], o.x[part->point_begin],
+           (part->point_end - part->point_begin) * sizeof *o.x);
 }
 
 void vector_copy(struct sim *sim, double (*to)[4], double (*from)[4])

@@ -95,6 +95,8 @@ static void outer_part(struct sim *sim, const struct sim_part *part, void *conte
     const struct sim_kernels *k = sim->kernels;
     for (const struct sim_chunk *c = part->chunks; c < part->chunks + part->chunk_count; c++) {
         k->clear_points(sim, c);
+        if (part->balloon->arm_count > 0)
+            k->arm_forces(sim, part, c);
         kernels_press(k, sim, part, c);
     }
 }
