@@ -1,8 +1,11 @@
 /* Needles: points that move on their own and start a tear where they meet the skin, whichever of the two moves. */
+#include "common/vec3.h"
 #include "sim/ccd.h"
 #include "sim/effects.h"
+#include "sim/sweep.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static bool wanted(const struct scene *scene)
@@ -10,11 +13,11 @@ static bool wanted(const struct scene *scene)
     return scene->needles_count > 0;
 }
 
-static enum status open(struct sim *sim, struct sim_balloon *balloon, struct error *err)
-{
-    (void)balloon;
-    return sim_keep_before(sim, err);
-}
+/* What is remembered from step to step. */
+struct needles {
+    double room;           /* how much nearer any needle and any point may come before they can meet; state */
+    struct search *search; /* [part_count] owned */
+};
 
 /* A needle's way over the last step. */
 struct prick {
@@ -27,20 +30,20 @@ struct hole {
     uint32_t triangle;
 };
 
-static bool is_far(const struct sim *sim, const uint32_t *p, const struct prick *prick, double gap)
+/* By how much the needle's way is beside that of the triangle, along one of the axes: so much they must come nearer to meet. */
+static double apart(const struct sim *sim, const uint32_t *p, const struct prick *prick)
 {
+    double most = -INFINITY;
     for (int i = 0; i < 3; i++) {
-        const double low = fmin(prick->from[i], prick->to[i]) - gap,
-                     high = fmax(prick->from[i], prick->to[i]) + gap;
-        bool below = true, above = true;
+        double low = INFINITY, high = -INFINITY;
         for (int k = 0; k < 3; k++) {
-            below &= sim->before[p[k]][i] < low && sim->position[p[k]][i] < low;
-            above &= sim->before[p[k]][i] > high && sim->position[p[k]][i] > high;
+            low = fmin(low, fmin(sim->before[p[k]][i], sim->position[p[k]][i]));
+            high = fmax(high, fmax(sim->before[p[k]][i], sim->position[p[k]][i]));
         }
-        if (below || above)
-            return true;
+        most = fmax(
+            most, fmax(low - fmax(prick->from[i], prick->to[i]), fmin(prick->from[i], prick->to[i]) - high));
     }
-    return false;
+    return most;
 }
 
 /* When the needle comes to the triangle; INFINITY: it does not. */
@@ -49,8 +52,6 @@ static double meeting(const struct sim *sim, uint32_t triangle, const struct pri
     const uint32_t *p = sim->triangle_point[triangle];
     double from[4][3], to[4][3];
     struct ccd_touch touch;
-    if (is_far(sim, p, prick, gap))
-        return INFINITY;
     memcpy(from[0], prick->from, sizeof from[0]);
     memcpy(to[0], prick->to, sizeof to[0]);
     for (int k = 0; k < 3; k++) {
@@ -62,19 +63,45 @@ static double meeting(const struct sim *sim, uint32_t triangle, const struct pri
     return ccd_meet(CCD_POINT_TRIANGLE, from, to, gap / 2, &touch) ? touch.time : INFINITY;
 }
 
-/* The first of all; of two at once the one with the lower number. */
-static struct hole first_meeting(const struct sim *sim, const struct prick *prick)
+/* Among the triangles of a part. */
+struct search {
+    struct hole first;
+    double room;
+};
+
+struct job {
+    const struct prick *prick;
+    struct search *search;
+};
+
+static void search_part(struct sim *sim, const struct sim_part *part, void *context)
 {
-    struct hole first = {INFINITY, 0};
-    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++) {
-        const double gap = b->mean_rest_length / 1000;
-        for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++) {
-            const double time = sim->triangle_active[t] ? meeting(sim, t, prick, gap) : INFINITY;
-            if (time < first.time)
-                first = (struct hole){time, t};
-        }
+    const struct job *job = context;
+    const double gap = part->balloon->mean_rest_length / 1000;
+    struct search found = {{INFINITY, 0}, INFINITY};
+    for (uint32_t t = part->triangle_begin; t < part->triangle_end; t++) {
+        if (!sim->triangle_active[t])
+            continue;
+        const double beside = apart(sim, sim->triangle_point[t], job->prick) - gap;
+        found.room = fmin(found.room, beside);
+        const double time = beside > 0 ? INFINITY : meeting(sim, t, job->prick, gap);
+        if (time < found.first.time)
+            found.first = (struct hole){time, t};
     }
-    return first;
+    job->search[part - sim->parts] = found;
+}
+
+/* The first of all; of two at once the one with the lower number. */
+static struct search search_all(struct sim *sim, const struct prick *prick)
+{
+    struct search *parts = sim->needles->search, all = {{INFINITY, 0}, INFINITY};
+    sim_each_part(sim, search_part, &(struct job){prick, parts});
+    for (size_t i = 0; i < sim->part_count; i++) {
+        all.room = fmin(all.room, parts[i].room);
+        if (parts[i].first.time < all.first.time)
+            all.first = parts[i].first;
+    }
+    return all;
 }
 
 static void needle_at(const struct scene_needles *needle, double time, double x[3])
@@ -83,28 +110,87 @@ static void needle_at(const struct scene_needles *needle, double time, double x[
         x[i] = needle->from[i] + needle->velocity[i] * (time - needle->at);
 }
 
+/* Before its time it is where it will begin. */
+static struct prick prick_of(const struct sim *sim, const struct scene_needles *needle)
+{
+    struct prick prick;
+    needle_at(needle, fmax(sim->time - sim->taken, needle->at), prick.from);
+    needle_at(needle, fmax(sim->time, needle->at), prick.to);
+    return prick;
+}
+
+/* What the last step took of the room, and rounding with it. */
+static double come_nearer(const struct sim *sim)
+{
+    double way = 0;
+    for (size_t i = 0; i < sim->scene->needles_count; i++) {
+        const struct prick prick = prick_of(sim, &sim->scene->needles[i]);
+        way = fmax(way, vec3_distance(prick.from, prick.to));
+    }
+    return (1 + 1e-9) * (sweep_saw_farthest(sim) + way);
+}
+
+static void start_tear(struct sim *sim, const struct prick *prick, const struct hole *hole)
+{
+    double place[3];
+    for (int k = 0; k < 3; k++)
+        place[k] = prick->from[k] + hole->time * (prick->to[k] - prick->from[k]);
+    sim_prick(sim, hole->triangle, place);
+}
+
+/* Nothing is looked at while needles are further from all of the skin than they and it have moved since they were. */
 static void apply(struct sim *sim, struct sim_balloon *balloon)
 {
     (void)balloon;
+    struct needles *needles = sim->needles;
+    const double nearer = come_nearer(sim);
+    if (nearer < needles->room) {
+        needles->room -= nearer;
+        return;
+    }
+    needles->room = INFINITY;
     for (size_t i = 0; i < sim->scene->needles_count; i++) {
         const struct scene_needles *needle = &sim->scene->needles[i];
-        struct prick prick;
-        if (sim->time < needle->at)
-            continue;
-        needle_at(needle, fmax(sim->time - sim->taken, needle->at), prick.from);
-        needle_at(needle, sim->time, prick.to);
-        const struct hole hole = first_meeting(sim, &prick);
-        double place[3];
-        for (int k = 0; k < 3 && hole.time < INFINITY; k++)
-            place[k] = prick.from[k] + hole.time * (prick.to[k] - prick.from[k]);
-        if (hole.time < INFINITY)
-            sim_prick(sim, hole.triangle, place);
+        const struct prick prick = prick_of(sim, needle);
+        const struct search found = search_all(sim, &prick);
+        needles->room = fmin(needles->room, found.room);
+        if (sim->time >= needle->at && found.first.time < INFINITY)
+            start_tear(sim, &prick, &found.first);
     }
+}
+
+static enum status open(struct sim *sim, struct sim_balloon *balloon, struct error *err)
+{
+    (void)balloon;
+    sim->needles = calloc(1, sizeof *sim->needles);
+    if (!sim->needles)
+        return error_no_memory(err, "the needles");
+    sim->bytes += sizeof *sim->needles;
+    sim->needles->search = sim_table(sim, sim->part_count, sizeof *sim->needles->search);
+    return sim->needles->search ? sim_keep_before(sim, err) : error_no_memory(err, "the needles");
+}
+
+static void close(struct sim *sim, struct sim_balloon *balloon)
+{
+    (void)balloon;
+    if (sim->needles)
+        free(sim->needles->search);
+    free(sim->needles);
+    sim->needles = NULL;
+}
+
+static size_t blocks(struct sim *sim, struct sim_balloon *balloon, struct sim_block *list)
+{
+    (void)balloon;
+    list[0] = (struct sim_block){"needles", &sim->needles->room, sizeof sim->needles->room};
+    return 1;
 }
 
 const struct effect effect_needles = {.name = "needles",
                                       .phase = EFFECT_AFTER_STEP,
                                       .scene_wanted = wanted,
                                       .open = open,
+                                      .close = close,
+                                      .blocks = blocks,
                                       .apply = apply,
                                       .source = "the skin's triangle that the point meets lets go"};

@@ -81,15 +81,15 @@ static enum status open(struct sim *sim, struct sim_balloon *balloon, struct err
     if (!obstacles)
         return error_no_memory(err, "the obstacles");
     obstacles->items = array_new(scene->obstacles_count + 1, sizeof *obstacles->items);
-    obstacles->touched = array_new(sim->part_count, sizeof *obstacles->touched);
-    if (!obstacles->items || !obstacles->touched)
+    obstacles->found = array_new(sim->part_count, sizeof *obstacles->found);
+    if (!obstacles->items || !obstacles->found)
         return error_no_memory(err, "the obstacles");
     if (scene->ground.on)
         obstacles->items[obstacles->count++] = make_ground(&scene->ground);
     for (size_t i = 0; i < scene->obstacles_count; i++)
         obstacles->items[obstacles->count++] = make_obstacle(&scene->obstacles[i]);
     obstacles->margin = 1e-9 * balloon->radius;
-    sim->bytes += obstacles->count * sizeof *obstacles->items + sim->part_count * sizeof(uint32_t);
+    sim->bytes += obstacles->count * sizeof *obstacles->items + sim->part_count * sizeof *obstacles->found;
     enum status status = check_outside(sim, err);
     return status ? status : sim_keep_before(sim, err);
 }
@@ -100,7 +100,7 @@ static void close(struct sim *sim, struct sim_balloon *balloon)
     if (!sim->obstacles)
         return;
     free(sim->obstacles->items);
-    free(sim->obstacles->touched);
+    free(sim->obstacles->found);
     free(sim->obstacles);
     sim->obstacles = NULL;
 }
@@ -128,12 +128,26 @@ static enum status settle_obstacles(struct sim *sim, struct error *err)
     return sim->contact ? STATUS_OK : settle(sim, err);
 }
 
+/* Of both kinds together, wherever they are settled. */
+static size_t blocks(struct sim *sim, struct sim_balloon *balloon, struct sim_block *list)
+{
+    (void)balloon;
+    list[0] = (struct sim_block){"room", &sim->obstacles->room, sizeof sim->obstacles->room};
+    return 1;
+}
+
+static size_t ground_blocks(struct sim *sim, struct sim_balloon *balloon, struct sim_block *list)
+{
+    return obstacles_wanted(sim->scene) ? 0 : blocks(sim, balloon, list);
+}
+
 const struct effect effect_ground = {.name = "ground",
                                      .phase = EFFECT_MOVED,
                                      .scene_wanted = ground_wanted,
                                      .open = open,
                                      .close = close,
                                      .settle = settle_ground,
+                                     .blocks = ground_blocks,
                                      .source = "Coulomb's friction, Newton's restitution"};
 
 const struct effect effect_obstacles = {.name = "obstacles",
@@ -142,4 +156,5 @@ const struct effect effect_obstacles = {.name = "obstacles",
                                         .open = open,
                                         .close = close,
                                         .settle = settle_obstacles,
+                                        .blocks = blocks,
                                         .source = "Coulomb's friction, Newton's restitution"};

@@ -1,5 +1,7 @@
 #include "sim/obstacles.h"
 #include "common/vec3.h"
+#include "sim/kernels.h"
+#include "sim/sweep.h"
 
 #include <string.h>
 
@@ -22,6 +24,30 @@ bool obstacle_holds(const struct obstacle *o, const double x[3])
                fabs(x[2] - o->place[2]) < o->half[2];
     }
     return false;
+}
+
+/* Ten digits of the largest number there is in it are enough for any rounding. */
+static double rounding(const struct obstacle *o, double box[2][4])
+{
+    double largest = o->radius;
+    for (int i = 0; i < 3; i++)
+        largest = fmax(largest, fmax(fabs(box[0][i]), fabs(box[1][i])) + fabs(o->place[i]) + o->half[i]);
+    return 1e-10 * largest;
+}
+
+double obstacle_gap(const struct obstacle *o, double box[2][4])
+{
+    double height = 0, squared = 0, widest = 0;
+    for (int i = 0; i < 3; i++) {
+        const double low = box[0][i] - o->place[i], high = box[1][i] - o->place[i],
+                     beside = fmax(fmax(low, -high), 0);
+        height += fmin(o->normal[i] * low, o->normal[i] * high);
+        squared += beside * beside;
+        widest = fmax(widest, beside - o->half[i]);
+    }
+    const double gap[] = {
+        [OBSTACLE_PLANE] = height, [OBSTACLE_SPHERE] = sqrt(squared) - o->radius, [OBSTACLE_BOX] = widest};
+    return gap[o->kind] - rounding(o, box);
 }
 
 static double enter_plane(const struct obstacle *o, const double a[3], const double b[3], double normal[3])
@@ -173,20 +199,68 @@ bool obstacles_turn(const struct obstacles *obstacles, const double from[3], dou
     return true;
 }
 
+static double least_gap(const struct obstacles *obstacles, double box[2][4])
+{
+    double least = INFINITY;
+    for (size_t i = 0; i < obstacles->count; i++)
+        least = fmin(least, obstacle_gap(&obstacles->items[i], box));
+    return least;
+}
+
+static void add_box(double box[2][4], double more[2][4])
+{
+    for (int i = 0; i < 3; i++) {
+        box[0][i] = fmin(box[0][i], more[0][i]);
+        box[1][i] = fmax(box[1][i], more[1][i]);
+    }
+}
+
+static const struct obstacles_found nothing = {
+    0, {{INFINITY, INFINITY, INFINITY, 0}, {-INFINITY, -INFINITY, -INFINITY, 0}}};
+
+/* Block by block: most are nowhere near anything. */
 static void settle_part(struct sim *sim, const struct sim_part *part, void *context)
 {
+    enum { BLOCK = 64 };
     const struct obstacles *obstacles = context;
-    uint32_t touched = 0;
-    for (uint32_t p = part->point_begin; p < part->point_end; p++)
-        touched += obstacles_turn(obstacles, sim->before[p], sim->position[p], sim->velocity[p]);
-    obstacles->touched[part - sim->parts] = touched;
+    struct obstacles_found found = nothing;
+    for (uint32_t begin = part->point_begin; begin < part->point_end;) {
+        const uint32_t left = part->point_end - begin, end = begin + (left < BLOCK ? left : BLOCK);
+        double box[2][4];
+        sim->kernels->box_ways(sim, begin, end, box);
+        const bool near = !(least_gap(obstacles, box) > 0);
+        for (uint32_t p = begin; p < end && near; p++)
+            found.touched += obstacles_turn(obstacles, sim->before[p], sim->position[p], sim->velocity[p]);
+        add_box(found.box, box);
+        begin = end;
+    }
+    obstacles->found[part - sim->parts] = found;
+}
+
+/* From each balloon's box as a whole: which does not depend on how its points are shared out. What was turned stays in it, or at the surface. */
+static double find_room(const struct sim *sim, const struct sim_balloon *b)
+{
+    struct obstacles_found all = nothing;
+    for (size_t i = 0; i < sim->part_count; i++)
+        if (sim->parts[i].balloon == b)
+            add_box(all.box, sim->obstacles->found[i].box);
+    return least_gap(sim->obstacles, all.box);
 }
 
 bool obstacles_settle(struct sim *sim)
 {
-    sim_each_part(sim, settle_part, sim->obstacles);
+    struct obstacles *obstacles = sim->obstacles;
+    const double moved = sweep_saw_farthest(sim) * (1 + 1e-9);
+    if (moved < obstacles->room && !sim->contact) { /* which moves points afterwards */
+        obstacles->room -= moved;
+        return false;
+    }
     uint32_t touched = 0;
+    sim_each_part(sim, settle_part, obstacles);
     for (size_t i = 0; i < sim->part_count; i++)
-        touched += sim->obstacles->touched[i];
+        touched += obstacles->found[i].touched;
+    obstacles->room = touched > 0 ? 0 : INFINITY;
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
+        obstacles->room = fmin(obstacles->room, find_room(sim, b));
     return touched > 0;
 }

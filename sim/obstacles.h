@@ -22,8 +22,16 @@ struct obstacles {
     struct obstacle *items; /* [count] owned */
     size_t count;
     double margin; /* at which points are left in front of a surface, so that rounding leaves them outside */
-    uint32_t *touched; /* [part_count] points that were turned in the last step; owned */
+    double room;   /* how far any point may move before it can meet something; state */
+    struct obstacles_found {
+        uint32_t touched; /* points that were turned in the last step */
+        double box[2][4]; /* of all their ways in it */
+    } * found;            /* [part_count] owned */
 };
+
+/* How far the obstacle is at the least from anything in a box, which is its smallest and largest coordinates, less what rounding may make of it; 0 or
+ * less: it may meet it. */
+double obstacle_gap(const struct obstacle *o, double box[2][4]);
 
 /* Whether the place is inside. */
 bool obstacle_holds(const struct obstacle *o, const double x[3]);

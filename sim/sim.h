@@ -34,6 +34,7 @@ struct gas;
 struct pins;
 struct string;
 struct obstacles;
+struct needles;
 struct contact;
 struct air_drag;
 struct limit_point;
@@ -213,6 +214,7 @@ struct sim {
     double (*before)
         [4]; /* [point_count] places when the step began; NULL: nothing that the scene calls for asks for them */
     struct obstacles *obstacles; /* what stands in the way (obstacles.h); NULL: nothing */
+    struct needles *needles;     /* how near they are (effect_needles.c); NULL: there are none */
     struct contact *contact;     /* what keeps skins apart (contact.h); NULL: nothing */
     struct air_drag *drag;       /* what the air's resistance remembers (effect_drag.c) */
     struct hand *hand;           /* that pulls at it (live_hand.h); NULL: none */

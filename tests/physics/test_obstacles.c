@@ -134,6 +134,58 @@ static void test_far_ground_changes_no_bit(void **state)
     close_balloon(&without);
 }
 
+/* Steps in which nothing can be met need not look; a balloon that falls from afar on a ball beside the ground meets both as one that looks at
+ * each step does, to the bit. */
+static void test_what_is_far_is_met_as_if_each_step_had_looked(void **state)
+{
+    (void)state;
+    struct balloon b[2];
+    uint32_t met = 0;
+    for (int k = 0; k < 2; k++)
+        open_balloon(&b[k], 2,
+                     SETTINGS("ground.height=-70", "obstacles[0].place=[30,-62,0]", "obstacles[0].radius=5",
+                              "gravity.acceleration=[0.0,-20.0,0.0]", "balloons[0].pressure=0",
+                              "balloons[0].threshold=1e9", "time.guard=substep"));
+    for (int i = 0; i < 150; i++) {
+        b[1].sim.obstacles->room = 0;
+        steps(&b[0], 1);
+        steps(&b[1], 1);
+        assert_true(i > 0 || b[0].sim.obstacles->room > 10);
+        assert_memory_equal(b[0].sim.position, b[1].sim.position,
+                            b[0].sim.point_count * sizeof *b[0].sim.position);
+        met += b[0].sim.obstacles->found[0].touched > 0;
+    }
+    assert_true(met > 0);
+    close_balloon(&b[0]);
+    close_balloon(&b[1]);
+}
+
+/* The way of a balloon past each kind of obstacle, by boxes of places that it holds: never nearer than the gap says. */
+static void test_a_gap_is_no_wider_than_it_is(void **state)
+{
+    (void)state;
+    const struct obstacle *all[] = {&ball, &box, &floor_of_all};
+    uint64_t random = 4;
+    int apart = 0;
+    for (int i = 0; i < 20000; i++) {
+        double span[2][4] = {{0}}, x[3];
+        const struct obstacle *o = all[i % 3];
+        for (int k = 0; k < 3; k++) {
+            span[0][k] = random_in(&random, 8);
+            span[1][k] = span[0][k] + 3 * random_unit(&random);
+            x[k] = span[0][k] + random_unit(&random) * (span[1][k] - span[0][k]);
+        }
+        const double gap = obstacle_gap(o, span);
+        apart += gap > 0;
+        for (int k = 0; k < 3; k++) { /* moved by the gap, in any direction of the axes */
+            double moved[3] = {x[0], x[1], x[2]};
+            moved[k] += (i & 1 ? gap : -gap) * (gap > 0);
+            assert_false(gap > 0 && obstacle_holds(o, moved));
+        }
+    }
+    assert_true(apart > 5000);
+}
+
 static void test_a_needle_tears_the_skin_where_and_when_it_arrives(void **state)
 {
     (void)state;
@@ -194,6 +246,8 @@ int main(void)
         cmocka_unit_test(test_bounce_throws_back_what_came),
         cmocka_unit_test(test_a_balloon_at_100_radii_a_second_enters_nothing),
         cmocka_unit_test(test_far_ground_changes_no_bit),
+        cmocka_unit_test(test_what_is_far_is_met_as_if_each_step_had_looked),
+        cmocka_unit_test(test_a_gap_is_no_wider_than_it_is),
         cmocka_unit_test(test_a_needle_tears_the_skin_where_and_when_it_arrives),
         cmocka_unit_test(test_skin_that_grows_into_a_needle_tears),
         cmocka_unit_test(test_bad_surroundings_are_refused_with_a_reason),
