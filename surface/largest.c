@@ -9,6 +9,8 @@
 struct search {
     struct probe probe;
     double value, point[3];
+    int apart;     /* the side of aligned cubes, a power of 2, in each of which one leaf is looked at */
+    int latest[3]; /* that of the leaf before, in such sides */
 };
 
 static void look(struct search *search, const double point[3])
@@ -20,9 +22,20 @@ static void look(struct search *search, const double point[3])
     memcpy(search->point, point, sizeof search->point);
 }
 
+/* Leaves come in Morton order: those of an aligned cube one after the other. */
+static bool is_same_cube(struct search *search, const struct octree_leaf *leaf)
+{
+    const int cube[3] = {leaf->x / search->apart, leaf->y / search->apart, leaf->z / search->apart};
+    const bool same = !memcmp(cube, search->latest, sizeof cube);
+    memcpy(search->latest, cube, sizeof cube);
+    return same;
+}
+
 static bool look_at_leaf(void *context, const struct octree_leaf *leaf)
 {
     struct search *search = context;
+    if (is_same_cube(search, leaf))
+        return true;
     double half = leaf->side / 2.0, spacing = search->probe.field->lattice[TRACK_VOLUME].spacing;
     double middle[3] = {leaf->x + half, leaf->y + half, leaf->z + half};
     double first[3] = {leaf->x + spacing / 2, leaf->y + spacing / 2, leaf->z + spacing / 2};
@@ -51,11 +64,21 @@ static void climb(struct search *search)
     }
 }
 
+/* Over a sigma the field changes little, and the climb does the rest: more places cost only time. */
+static int cubes_apart(const struct field *field)
+{
+    int apart = 1;
+    while (2 * apart <= field->side && 2 * apart <= field->sigma)
+        apart *= 2;
+    return apart;
+}
+
 enum status field_largest(const struct field *field, double *value, double point[3], struct error *err)
 {
-    struct search search = {.value = -INFINITY};
+    struct search search = {.value = -INFINITY, .apart = cubes_apart(field), .latest = {-1, -1, -1}};
     if (probe_init(&search.probe, field, err))
         return err->status;
+    probe_expect(&search.probe, 1);
     octree_visit_all(field->tree, look_at_leaf, &search);
     climb(&search);
     bool failed = search.probe.failed;

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static enum status open_workers(struct mesher *m, struct error *err)
+static enum status open_workers(struct mesher *m, double cube, struct error *err)
 {
     unsigned count = threads_workers(m->pool);
     m->worker = calloc(count, sizeof *m->worker);
@@ -18,6 +18,7 @@ static enum status open_workers(struct mesher *m, struct error *err)
             return error_no_memory(err, "the workers");
         if (probe_init(&m->worker[i]->probe, m->field, err))
             return err->status;
+        probe_expect(&m->worker[i]->probe, cube);
     }
     return STATUS_OK;
 }
@@ -29,7 +30,7 @@ enum status mesher_init(struct mesher *m, const struct field *field, double thre
     cell_table_make(&m->cells);
     enum status status = grid_init(&m->grid, field, cube, err);
     if (status == STATUS_OK)
-        status = open_workers(m, err);
+        status = open_workers(m, cube, err);
     if (status)
         mesher_clear(m);
     return status;

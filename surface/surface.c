@@ -5,6 +5,7 @@
 #include "surface/relax.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <unistd.h>
 
 struct surface_options surface_defaults(void)
@@ -108,6 +109,20 @@ static double default_cube(const struct making *making)
     return fmin(1.0 / 3, extent / 24.0);
 }
 
+/* The first of sigma / 2, / 4, ... with which the field reaches the threshold somewhere; 0: none does. */
+static double sigma_that_reaches(const struct making *making)
+{
+    struct field_settings settings = making->options->field;
+    double value = 0, point[3];
+    while (value < making->options->threshold) {
+        struct field field;
+        settings.sigma /= 2;
+        if (field_init(&field, making->tree, &settings, NULL) || field_largest(&field, &value, point, NULL))
+            return 0;
+    }
+    return settings.sigma;
+}
+
 /* STATUS_INPUT when no point of the field reaches the threshold. */
 static enum status check_reached(const struct making *making, struct error *err)
 {
@@ -116,11 +131,15 @@ static enum status check_reached(const struct making *making, struct error *err)
         return err->status;
     if (value >= threshold)
         return STATUS_OK;
+    char works[64] = "";
+    const double sigma = sigma_that_reaches(making);
+    if (sigma > 0)
+        snprintf(works, sizeof works, " (a sigma of %.3g cells works)", sigma);
     return error_set(
         err, STATUS_INPUT,
         "no point reaches the threshold %g: the largest value of the field found is %.4g, at (%.4g, %.4g, "
-        "%.4g); lower the threshold or sigma, or use more fields",
-        threshold, value, point[0] / side, point[1] / side, point[2] / side);
+        "%.4g); lower the threshold or sigma%s, or use more fields",
+        threshold, value, point[0] / side, point[1] / side, point[2] / side, works);
 }
 
 /* Chooses the cube size for a number of triangles. Their number falls like 1/h^2, though in steps: each
@@ -223,9 +242,11 @@ enum status surface_make(const struct octree *tree, const struct surface_options
         return error_set(err, STATUS_INPUT, "the sculpture is empty: there is no surface around nothing");
     if (threads_open(&making.pool, options->threads, err))
         return err->status;
+    /* With a wide sigma that is soon known, and looking for the surface first could take for ever. */
+    enum { WIDE = 4 }; /* in cells */
+    enum status status = options->field.sigma >= WIDE ? check_reached(&making, err) : STATUS_OK;
     double cube = options->cube_size > 0 ? options->cube_size * making.field.side : default_cube(&making);
-    enum status status = STATUS_OK;
-    if (options->cube_size <= 0 && options->triangles)
+    if (!status && options->cube_size <= 0 && options->triangles)
         status = choose_cube(&making, &cube, err);
     stats->cube_size = cube / making.field.side;
     if (status == STATUS_OK)

@@ -13,6 +13,11 @@ refused 1 'a cube size of .* is too small: about 2e\+09 triangles in ' balloon-s
 refused 1 '1e-05u: too small .*at least 0\.0025u' balloon-surface cube.oct --sigma 1e-5u -o a.ply
 # So wide that nothing reaches the threshold, and wider than is allowed.
 refused 1 'no point reaches the threshold 0\.5: the largest value .*lower the threshold or sigma' balloon-surface cube.oct --sigma 1000 -o a.ply
+# So it is with a sculpture of many cells, at once, with a sigma that does.
+printf 'depth 7\nstart empty\nfill sphere 0.5 0.5 0.5 0.4\n' >ball.chips
+expect 0 balloon-sculpt --quiet --script ball.chips -o ball.oct
+refused 1 'lower the threshold or sigma \(a sigma of 31\.2 cells works\)' balloon-surface ball.oct --sigma 500 -o a.ply
+expect 0 balloon-surface --quiet ball.oct --sigma 31.2 --cube-size 0.1 --relax 0 -o b.ply
 refused 2 'sigma 1001: must be a number from 0\.01 to 1000' balloon-surface cube.oct --sigma 1001 -o a.ply
 for sigma in 0 -1 nan inf 1e300 '' u x 0.3x; do
     refused 2 "sigma $sigma?.*: must be a number" balloon-surface cube.oct --sigma "$sigma" -o a.ply
@@ -27,4 +32,4 @@ done
 refused 2 'fields-per-area must be above 0' balloon-surface cube.oct --fields-per-cube 0 -o a.ply
 refused 2 'cutoff 9: must be' balloon-surface cube.oct --cutoff 9 -o a.ply
 refused 2 'must be descent or random' balloon-surface cube.oct --seeds often -o a.ply
-only_files cube.oct
+only_files cube.oct ball.chips ball.oct b.ply
