@@ -18,7 +18,9 @@ struct band {
     const struct render_view *view;
     const struct render_scene *scene;
     const struct camera_eye *eye;
-    int below; /* the picture's row, from below, that is the target's lowest */
+    int number;              /* the eye's */
+    int below;               /* the picture's row, from below, that is the target's lowest */
+    struct draw_place place; /* where in what is bound */
 };
 
 enum status render_bind_band(struct render *render, const struct render_view *view, struct error *err)
@@ -67,11 +69,24 @@ static void eye_rectangle(const struct band *band, int rectangle[4])
     memcpy(rectangle, result, sizeof result);
 }
 
-static void scissor_eye(const struct band *band)
+/* From now on no more than that rectangle of what is bound is drawn. */
+static void scissor(struct band *band, const int rectangle[4])
 {
-    int at[4];
-    eye_rectangle(band, at);
-    band->render->gl.Scissor(at[0], at[1], at[2], at[3]);
+    memcpy(band->place.scissor, rectangle, sizeof band->place.scissor);
+    band->render->gl.Scissor(rectangle[0], rectangle[1], rectangle[2], rectangle[3]);
+}
+
+/* The eye's picture lies in the target. */
+static void place_eye(struct band *band)
+{
+    const struct camera_eye *eye = band->eye;
+    int rectangle[4];
+    eye_rectangle(band, rectangle);
+    band->place = (struct draw_place){
+        .viewport = {eye->left, eye->bottom - band->below, eye->width, eye->height},
+        .brightness = 1,
+        .eye = band->number};
+    scissor(band, rectangle);
 }
 
 /* The box of the target that anything but the backdrop may meet. */
@@ -100,16 +115,15 @@ static void draw_behind(const struct band *band, bool smoothly)
 {
     struct render *render = band->render;
     const struct gl *gl = &render->gl;
-    const struct draw_place place = {
-        {band->eye->left, band->eye->bottom - band->below, band->eye->width, band->eye->height}, 1};
+    const struct draw_place *place = &band->place;
     const bool keeps = !smoothly && render->target.height == band->view->height;
-    if (!keeps || !behind_fetch(&render->behind, gl, &render->target, place.viewport)) {
-        draw_backdrop(&render->draw, gl, &place);
+    if (!keeps || !behind_fetch(&render->behind, gl, &render->target, place->viewport)) {
+        draw_backdrop(&render->draw, gl, place);
         if (keeps)
-            behind_keep(&render->behind, gl, &render->target, place.viewport);
+            behind_keep(&render->behind, gl, &render->target, place->viewport);
     }
     gl->Enable(GL_SCISSOR_TEST);
-    draw_shadow(&render->draw, gl, &place, band->eye, &render->geometry);
+    draw_shadow(&render->draw, gl, place, band->eye, &render->geometry);
 }
 
 /* All but the text. */
@@ -120,13 +134,13 @@ static void draw_all(const struct band *band)
     draw_behind(band, render->target.samples > 1);
     if (band->scene->solid)
         solid_draw_eye(&render->solid, gl, band->view, band->eye, &render->geometry, band->scene);
-    draw_eye(&render->draw, gl, band->eye, &render->geometry);
+    draw_eye(&render->draw, gl, &band->place, band->eye, &render->geometry);
     overlay_draw_lines(&render->overlay, gl, band->eye, &render->geometry);
 }
 
 /* Smooth edges are costly: only the part of the picture that anything may meet is drawn with more than one
  * sample a pixel; the backdrop around it needs none. */
-static void draw_smoothly(const struct band *band)
+static void draw_smoothly(struct band *band)
 {
     struct render *render = band->render;
     const struct gl *gl = &render->gl;
@@ -136,9 +150,9 @@ static void draw_smoothly(const struct band *band)
     draw_behind(band, false);
     if (box[2] && box[3]) {
         target_bind_drawn(&render->target, gl);
-        gl->Scissor(box[0], box[1], box[2], box[3]);
+        scissor(band, box);
         draw_all(band);
-        scissor_eye(band);
+        place_eye(band);
         target_resolve(&render->target, gl, box);
         target_bind_resolved(&render->target, gl);
     }
@@ -149,7 +163,8 @@ static void draw_layers(void *self, const struct light_pass *pass)
     const struct band *band = self;
     struct render *render = band->render;
     if (render->geometry.translucent.count)
-        draw_translucent(&render->draw, &render->gl, band->view->style, band->eye, &render->geometry, pass);
+        draw_translucent(&render->draw, &render->gl, band->view->style, &band->place, band->eye,
+                         &render->geometry, pass);
 }
 
 /* A strip of the target (x, y from below, width, height) in linear light, over what is there. */
@@ -165,13 +180,14 @@ static enum status draw_strip(struct band *band, const int strip[4], struct erro
                                     err);
     if (status)
         return status;
-    const struct draw_place place = {{(band->eye->left - strip[0]) * side,
-                                      (band->eye->bottom - band->below - strip[1]) * side,
-                                      band->eye->width * side, band->eye->height * side},
-                                     latex ? 1 / exposure : 1};
-    gl->Scissor(0, 0, strip[2] * side, strip[3] * side);
-    draw_backdrop(&render->draw, gl, &place);
-    draw_shadow(&render->draw, gl, &place, band->eye, &render->geometry);
+    band->place = (struct draw_place){.viewport = {(band->eye->left - strip[0]) * side,
+                                                   (band->eye->bottom - band->below - strip[1]) * side,
+                                                   band->eye->width * side, band->eye->height * side},
+                                      .brightness = latex ? 1 / exposure : 1,
+                                      .eye = band->number};
+    scissor(band, (const int[4]){0, 0, strip[2] * side, strip[3] * side});
+    draw_backdrop(&render->draw, gl, &band->place);
+    draw_shadow(&render->draw, gl, &band->place, band->eye, &render->geometry);
     if (band->scene->solid)
         solid_draw_eye(&render->solid, gl, view, band->eye, &render->geometry, band->scene);
     draw_opaque(&render->draw, gl, view->style, band->eye, &render->geometry);
@@ -210,14 +226,14 @@ static enum status draw_one_eye(struct band *band, struct error *err)
     const struct gl *gl = &render->gl;
     enum status status = STATUS_OK;
     gl->Enable(GL_SCISSOR_TEST);
-    scissor_eye(band);
+    place_eye(band);
     if (render_in_light(band->view))
         status = draw_in_light(band, err);
     else if (band->view->smooth_edges)
         draw_smoothly(band);
     else
         draw_all(band);
-    scissor_eye(band);
+    place_eye(band);
     overlay_draw_text(&render->overlay, gl, band->eye);
     gl->Disable(GL_SCISSOR_TEST);
     return status;
@@ -242,7 +258,8 @@ enum status render_bands(struct render *render, const struct render_view *view,
     for (int below = 0; below < view->height && !status; below += rows) {
         const int left = view->height - below, shown = left < rows ? left : rows;
         for (int i = 0; i < count && !status; i++) {
-            struct band band = {render, view, scene, &eyes[i], below};
+            struct band band = {
+                .render = render, .view = view, .scene = scene, .eye = &eyes[i], .number = i, .below = below};
             target_bind_drawn(&render->target, &render->gl);
             status = draw_one_eye(&band, err);
             if (!status)

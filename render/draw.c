@@ -88,14 +88,35 @@ void draw_close(struct draw *draw, const struct gl *gl)
     *draw = (struct draw){0};
 }
 
-void draw_upload(const struct draw *draw, const struct gl *gl, const struct geometry *g)
+/* Of all that is in the buffer. */
+static size_t indices_before(const struct draw *draw, const struct geometry *g, int eye)
 {
+    size_t count = 3 * g->opaque.count;
+    for (int i = 0; i < eye && draw->cells; i++)
+        count += draw->cells[i].indices.count;
+    return count;
+}
+
+static void upload_indices(const struct gl *gl, size_t first, const uint32_t *indices, size_t count)
+{
+    gl->BufferSubData(GL_ELEMENT_ARRAY_BUFFER, (GLintptr)(first * sizeof *indices),
+                      (GLsizeiptr)(count * sizeof *indices), indices);
+}
+
+void draw_upload(struct draw *draw, const struct gl *gl, const struct geometry *g, const struct cells *cells)
+{
+    draw->cells = cells;
+    const size_t own = cells ? 3 * g->opaque.count : g->indices.count;
+    const size_t all = cells ? indices_before(draw, g, 2) : own;
     gl->BindVertexArray(draw->arrays);
     gl->BindBuffer(GL_ARRAY_BUFFER, draw->vertices);
     gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(g->vertices.count * sizeof *g->vertices.items),
                    g->vertices.items, GL_STREAM_DRAW);
-    gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(g->indices.count * sizeof *g->indices.items),
-                   g->indices.items, GL_STREAM_DRAW);
+    gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(all * sizeof *g->indices.items), NULL,
+                   GL_STREAM_DRAW);
+    upload_indices(gl, 0, g->indices.items, own);
+    for (int i = 0; i < 2 && cells; i++)
+        upload_indices(gl, indices_before(draw, g, i), cells[i].indices.items, cells[i].indices.count);
 }
 
 static void set_place(const struct gl *gl, const struct draw_place *place)
@@ -151,6 +172,11 @@ static void use_skin(const struct draw *draw, const struct gl *gl, const struct 
     gl->BindVertexArray(draw->arrays);
 }
 
+static void draw_indices(const struct gl *gl, size_t first, size_t count)
+{
+    gl->DrawElements(GL_TRIANGLES, (GLsizei)count, GL_UNSIGNED_INT, (const void *)(first * sizeof(uint32_t)));
+}
+
 void draw_opaque(const struct draw *draw, const struct gl *gl, enum render_style style,
                  const struct camera_eye *eye, const struct geometry *g)
 {
@@ -159,11 +185,45 @@ void draw_opaque(const struct draw *draw, const struct gl *gl, enum render_style
     if (!g->opaque.count)
         return;
     use_skin(draw, gl, &draw->skins[style][LIGHT_BLENDED], eye, g);
-    gl->DrawElements(GL_TRIANGLES, (GLsizei)(3 * g->opaque.count), GL_UNSIGNED_INT, NULL);
+    draw_indices(gl, 0, 3 * g->opaque.count);
+}
+
+/* The part of a cell that is drawn, in the framebuffer; false: none. */
+static bool find_scissor(const struct cells *cells, int cell, const struct draw_place *place,
+                         const struct camera_eye *eye, int scissor[4])
+{
+    const int at[2] = {cell % cells->columns, cell / cells->columns};
+    const int side = place->viewport[2] / eye->width; /* samples along a pixel's side */
+    for (int i = 0; i < 2; i++) {
+        const int *whole = place->scissor + i;
+        const int from = place->viewport[i] + side * (cells->corner[i] + at[i] * cells->side);
+        const int to = from + side * cells->side, end = whole[0] + whole[2];
+        scissor[i] = from > whole[0] ? from : whole[0];
+        scissor[i + 2] = (to < end ? to : end) - scissor[i];
+    }
+    return scissor[2] > 0 && scissor[3] > 0;
+}
+
+static void draw_cells(const struct draw *draw, const struct gl *gl, const struct draw_place *place,
+                       const struct camera_eye *eye, const struct geometry *g)
+{
+    const struct cells *cells = &draw->cells[place->eye];
+    const size_t first = indices_before(draw, g, place->eye);
+    const int *whole = place->scissor;
+    int cell[4];
+    for (int i = 0; i < cells->columns * cells->rows; i++) {
+        const size_t count = cells->begin[i + 1] - cells->begin[i];
+        if (!count || !find_scissor(cells, i, place, eye, cell))
+            continue;
+        gl->Scissor(cell[0], cell[1], cell[2], cell[3]);
+        draw_indices(gl, first + 3 * cells->begin[i], 3 * count);
+    }
+    gl->Scissor(whole[0], whole[1], whole[2], whole[3]);
 }
 
 void draw_translucent(const struct draw *draw, const struct gl *gl, enum render_style style,
-                      const struct camera_eye *eye, const struct geometry *g, const struct light_pass *pass)
+                      const struct draw_place *place, const struct camera_eye *eye, const struct geometry *g,
+                      const struct light_pass *pass)
 {
     const struct draw_program *skin = &draw->skins[style][pass->way];
     use_skin(draw, gl, skin, eye, g);
@@ -171,14 +231,16 @@ void draw_translucent(const struct draw *draw, const struct gl *gl, enum render_
         gl->Uniform1i(skin->width, pass->width);
         gl->Uniform1ui(skin->room, pass->room);
     }
-    gl->DrawElements(GL_TRIANGLES, (GLsizei)(3 * g->translucent.count), GL_UNSIGNED_INT,
-                     (const void *)(3 * g->opaque.count * sizeof(uint32_t)));
+    if (draw->cells)
+        draw_cells(draw, gl, place, eye, g);
+    else
+        draw_indices(gl, 3 * g->opaque.count, 3 * g->translucent.count);
 }
 
 /* Opaque triangles hide by depth; translucent ones are hidden by those, and lie over one another in their order. The
  * shader gives the light to add and the share of each colour to keep of what lies behind. */
-void draw_eye(const struct draw *draw, const struct gl *gl, const struct camera_eye *eye,
-              const struct geometry *geometry)
+void draw_eye(const struct draw *draw, const struct gl *gl, const struct draw_place *place,
+              const struct camera_eye *eye, const struct geometry *geometry)
 {
     draw_opaque(draw, gl, RENDER_PAPER, eye, geometry);
     if (!geometry->translucent.count)
@@ -186,6 +248,7 @@ void draw_eye(const struct draw *draw, const struct gl *gl, const struct camera_
     gl->DepthMask(GL_FALSE);
     gl->Enable(GL_BLEND);
     gl->BlendFunc(GL_ONE, GL_SRC1_COLOR);
-    draw_translucent(draw, gl, RENDER_PAPER, eye, geometry, &(struct light_pass){.way = LIGHT_BLENDED});
+    draw_translucent(draw, gl, RENDER_PAPER, place, eye, geometry,
+                     &(struct light_pass){.way = LIGHT_BLENDED});
     gl->DepthMask(GL_TRUE);
 }

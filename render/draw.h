@@ -4,16 +4,16 @@
  *
  *     struct draw draw = {0};
  *     if (draw_open(&draw, &gl, err)) ...
- *     draw_upload(&draw, &gl, &geometry);                         for each frame
+ *     draw_upload(&draw, &gl, &geometry, NULL);                   for each frame
  *     draw_backdrop(&draw, &gl, &place);                          for each eye
  *     draw_shadow(&draw, &gl, &place, &eye, &geometry);
- *     draw_eye(&draw, &gl, &eye, &geometry);
+ *     draw_eye(&draw, &gl, &place, &eye, &geometry);
  *     draw_close(&draw, &gl);
  */
 #ifndef RENDER_DRAW_H
 #define RENDER_DRAW_H
 
-#include "render/geometry.h"
+#include "render/cells.h"
 #include "render/gl.h"
 #include "render/light.h"
 
@@ -29,20 +29,24 @@ struct draw {
     GLint backdrop_brightness, shadow_projection, shadow_corner, shadow_left;
     GLuint arrays, nothing;   /* vertex arrays: the skin's, and one without attributes */
     GLuint vertices, indices; /* buffers */
+    const struct cells *cells;
 };
 
-/* Where an eye's whole picture lies in the framebuffer (x, y, width, height), and how bright 1 is. */
+/* Where an eye's whole picture lies in the framebuffer, and which part of it is drawn (x, y, width, height); how bright 1 is. */
 struct draw_place {
-    int viewport[4];
+    int viewport[4], scissor[4];
     float brightness;
+    int eye; /* which of draw_upload()'s cells are its */
 };
 
 /* Errors: STATUS_RESOURCE with the compiler's message. */
 enum status draw_open(struct draw *draw, const struct gl *gl, struct error *err);
 void draw_close(struct draw *draw, const struct gl *gl);
 
-/* Hands the geometry over, once a frame. */
-void draw_upload(const struct draw *draw, const struct gl *gl, const struct geometry *geometry);
+/* Hands the geometry over, once a frame. `cells`: [2] one for each eye, of the translucent triangles, which are drawn by them where they are blended; borrowed
+ * until the next time. NULL: they are drawn as they come. */
+void draw_upload(struct draw *draw, const struct gl *gl, const struct geometry *geometry,
+                 const struct cells *cells);
 
 /* Makes ready what draws skins of that style that way. Errors: STATUS_RESOURCE with the compiler's message. */
 enum status draw_ready(struct draw *draw, const struct gl *gl, enum render_style style, enum light_way way,
@@ -61,11 +65,11 @@ void draw_opaque(const struct draw *draw, const struct gl *gl, enum render_style
 
 /* The translucent ones as the pass wants them; blending and depth are the caller's. The program is ready. */
 void draw_translucent(const struct draw *draw, const struct gl *gl, enum render_style style,
-                      const struct camera_eye *eye, const struct geometry *geometry,
-                      const struct light_pass *pass);
+                      const struct draw_place *place, const struct camera_eye *eye,
+                      const struct geometry *geometry, const struct light_pass *pass);
 
 /* All skins, the translucent ones blended in the geometry's order. */
-void draw_eye(const struct draw *draw, const struct gl *gl, const struct camera_eye *eye,
-              const struct geometry *geometry);
+void draw_eye(const struct draw *draw, const struct gl *gl, const struct draw_place *place,
+              const struct camera_eye *eye, const struct geometry *geometry);
 
 #endif

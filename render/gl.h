@@ -22,6 +22,7 @@
     X(BlendFunc, BLENDFUNC)                                           \
     X(BlitFramebuffer, BLITFRAMEBUFFER)                               \
     X(BufferData, BUFFERDATA)                                         \
+    X(BufferSubData, BUFFERSUBDATA)                                   \
     X(CheckFramebufferStatus, CHECKFRAMEBUFFERSTATUS)                 \
     X(Clear, CLEAR)                                                   \
     X(ClearBufferfv, CLEARBUFFERFV)                                   \

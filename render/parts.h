@@ -26,6 +26,7 @@ struct render {
     struct light light;   /* open only once a picture wants it */
     struct stereo stereo; /* the same */
     struct geometry geometry;
+    struct cells cells[2]; /* of each eye, where triangles are sorted */
     struct {
         double (*items)[3];
         size_t count, capacity;

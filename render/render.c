@@ -81,6 +81,18 @@ static enum status collect_points(struct render *render, const struct render_sce
     return STATUS_OK;
 }
 
+/* Sorted triangles lie about anywhere in the picture: cells bring neighbours together again. */
+static enum status build_cells(struct render *render, const struct render_view *view, struct error *err)
+{
+    struct camera_eye eyes[2];
+    enum status status = STATUS_OK;
+    const int count = camera_eyes(view, eyes);
+    render->cells[1].indices.count = 0; /* of an eye that may not be there */
+    for (int i = 0; i < count && cells_are_worth_it(&render->geometry, view) && !status; i++)
+        status = cells_build(&render->cells[i], &render->geometry, &eyes[i], err);
+    return status;
+}
+
 /* Everything of a frame to the graphics card. */
 static enum status prepare(struct render *render, const struct render_view *view,
                            const struct render_scene *scene, struct error *err)
@@ -92,6 +104,8 @@ static enum status prepare(struct render *render, const struct render_view *view
         status = geometry_build(&render->geometry, view, scene->skins, scene->skin_count,
                                 (const double(*)[3])render->points.items, render->points.count, err);
     if (!status)
+        status = build_cells(render, view, err);
+    if (!status)
         status = render_use(render, err);
     if (!status)
         status = render_ready(render, view, err);
@@ -100,7 +114,8 @@ static enum status prepare(struct render *render, const struct render_view *view
     if (!status)
         status = overlay_upload(&render->overlay, &render->gl, &render->quads, view, scene, err);
     if (!status)
-        draw_upload(&render->draw, &render->gl, &render->geometry);
+        draw_upload(&render->draw, &render->gl, &render->geometry,
+                    cells_are_worth_it(&render->geometry, view) ? render->cells : NULL);
     return status;
 }
 
@@ -149,6 +164,8 @@ void render_close(struct render *render)
         quads_clear(&render->quads, &render->gl);
     }
     geometry_clear(&render->geometry);
+    for (int i = 0; i < 2; i++)
+        cells_clear(&render->cells[i]);
     free(render->points.items);
     context_close(render->context);
     free(render);
