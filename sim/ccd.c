@@ -99,6 +99,20 @@ double ccd_approach(enum ccd_kind kind, double from[4][3], double to[4][3])
     return sqrt(largest[0]) + sqrt(largest[1]);
 }
 
+double ccd_apart(enum ccd_kind kind, const struct ccd_touch *touch, double x[4][3])
+{
+    const int first = kind == CCD_POINT_TRIANGLE ? 1 : 2;
+    double least = INFINITY, most = -INFINITY; /* of the first feature, of the second */
+    for (int i = 0; i < 4; i++) {
+        const double along = vec3_dot(touch->normal, x[i]);
+        if (i < first)
+            least = fmin(least, along);
+        else
+            most = fmax(most, along);
+    }
+    return least - most;
+}
+
 /* They never move past a tenth of what was free between them: nearer than that counts as a touch, and so does what takes too many steps. */
 bool ccd_meet(enum ccd_kind kind, double from[4][3], double to[4][3], double gap, struct ccd_touch *touch)
 {

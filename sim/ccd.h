@@ -32,4 +32,8 @@ bool ccd_meet(enum ccd_kind kind, double from[4][3], double to[4][3], double gap
 /* How far one feature can come towards the other on those ways, at most. */
 double ccd_approach(enum ccd_kind kind, double from[4][3], double to[4][3]);
 
+/* How far apart they are, at other places x, along the normal of `touch`: no more than their distance there. On straight ways it is never below what lies
+ * in between its values at the two ends. */
+double ccd_apart(enum ccd_kind kind, const struct ccd_touch *touch, double x[4][3]);
+
 #endif

@@ -8,92 +8,128 @@
  * as one, with the velocity that its momentum asks for: a rigid zone, that grows until nothing approaches any more (Provot 1997; there,
  * section 7.5).
  *
- * Which pairs can come near each other is known from a list (contact_list.c). It is made for some steps to come, on the lines that the points
- * are going along, and holds for as long as no point strays further than a tenth of an edge from its line, growth and motion of the
- * balloon as a whole left aside: a balloon with nothing near it pays for a look at its points and nothing else. How many steps, it learns from how
- * the lists before it went. Contact sleeps while the list is empty.
+ * Which pairs can come near each other is known from a list (contact_list.c). It is made for some steps to come, on straight lines that the points
+ * are expected to go along, and holds for a point as long as it strays no further from its line than it may, growth and motion of the
+ * balloon as a whole left aside. Where one has strayed further, because contact has pushed it or for another reason, what is near it is found anew, on a
+ * line of its own from there; all is found anew when the steps are over, or too many points have strayed. How many steps, and which points may
+ * stray further, it learns from how the lists before it went. While nothing is near a balloon it pays for a look at its points and nothing else: contact
+ * sleeps while the list is empty.
  */
 #ifndef SIM_CONTACT_H
 #define SIM_CONTACT_H
 
-#include "sim/ccd.h"
+#include "sim/contact_kernels.h"
 #include "sim/contact_tree.h"
 
-/* A point and a triangle, or two edges. */
+/* A point and a triangle, or two edges. With `gone` from 0 where the lines begin to 1 at their ends they are, on the lines, no nearer
+ * than distance - gone x approach. */
 struct contact_pair {
-    uint32_t a, b;            /* point and triangle; edges, a < b */
-    uint32_t kind;            /* enum ccd_kind */
-    float distance, approach; /* on the list's lines no nearer than distance - gone x approach */
+    uint32_t point[4]; /* the point and the triangle's corners, or the ends of one edge and of the other */
+    uint32_t kind;     /* enum ccd_kind */
+    float distance, approach;
 };
 
-/* How points have moved against the list's lines: as a whole, and from that. A pair is no nearer than growth x (its distance - gone x
- * its approach) - 2 stray. */
-struct contact_drift {
-    double growth; /* the least of all balloons, no more than 1 */
-    double stray;  /* the largest of all points */
+/* Pairs on trial, of each kind, until there are some to try at once. */
+enum { CONTACT_TAKEN = 128 };
+struct contact_taken {
+    uint32_t count[2];
+    uint32_t point[2][CONTACT_TAKEN][4];
+};
+
+/* How a balloon has moved against the lines as a whole: x = middle + growth x (the place on the line - from). */
+struct contact_motion {
+    double middle[3], from[3], growth;
 };
 
 struct contact {
     double thickness, friction; /* skins are kept between half of it and all of it apart */
     struct contact_tree tree;
+    const struct contact_kernels *kernels;
 
     /* The lines that the list was made for, gone along from one end to the other in so many steps; the state, since other lists could find
      * other touches first. */
     double (*from)[4], (*to)[4]; /* [point_count] owned */
+    float *reach; /* [point_count] how far a point may be from its line while the list holds for it; owned */
+    float *strayed;    /* [point_count] the largest square of how far it was; owned */
+    float (*speed)[4]; /* [point_count] when the list was made, a step; owned */
     struct contact_memory {
-        uint64_t made;              /* lists made so far */
-        uint64_t made_in;           /* the step, from 1; the lines begin where it did */
-        uint64_t horizon;           /* steps for which it was made */
-        uint64_t is_awake;          /* 1: the last step had pairs to look at */
-        double stray;               /* how far a point may be from its line while the list holds */
-        uint64_t wakes, zones;      /* so far: wakes; steps that needed a rigid zone */
-        struct contact_drift began; /* at the present step's beginning */
-        double used;                /* share of what may be strayed, at its end */
-        double pace;                /* the longest way that a line takes in a step */
+        uint64_t made, found;        /* lists made so far; and how often some of one was found */
+        uint64_t made_in;            /* the step, from 1; the lines begin where it did */
+        uint64_t horizon;            /* steps for which it was made */
+        uint64_t torn;               /* points that cuts had doubled by then */
+        uint64_t pairs;              /* that were near each other then */
+        uint64_t again;              /* points around which it was found anew since */
+        uint64_t is_awake;           /* 1: the last step had pairs to look at */
+        uint64_t wakes, zones;       /* so far: wakes; steps that needed a rigid zone */
+        double reach;                /* of most points */
+        struct contact_motion began; /* at the present step's beginning */
+        double stray;                /* of the point that had strayed furthest by then, */
+        double used;                 /* and the share of what most may */
+        double pace;                 /* the longest way that a line takes in a step */
     } memory;
-    struct contact_drift now; /* by the last contact_list_holds(), */
-    double used;              /* and the share of what may be strayed */
-    uint64_t listed;          /* memory.made of the list at hand; another number: to be made again */
-    uint32_t owned_broken;    /* sim->broken when `owned` was found; UINT32_MAX: not yet */
-    unsigned char
-        *owned; /* [triangle_count] of its corners and edges those that it stands for: bits 0-2 and 3-5 */
-    unsigned char *point_taken, *edge_taken; /* [point_count], [edge_count] for finding that */
+    struct contact_motion motion; /* in the present step, where there is one balloon alone */
+    double stray, used;           /* at its end */
+    uint64_t listed;              /* memory.found of the list at hand; another number: to be found again */
 
-    struct contact_pair *pairs; /* [pair_capacity] owned */
+    uint32_t shared_broken; /* sim->broken when leaves and stars were found; UINT32_MAX: not yet */
+    uint32_t *star_end,
+        *star; /* [point_count], [3 triangle_count] the triangles around p end at star_end[p]; owned */
+
+    struct contact_taken *taken; /* [workers] owned */
+    struct contact_pair *pairs;  /* [pair_capacity] owned */
     uint32_t pair_count, pair_capacity;
-    uint32_t *hits; /* [pair_capacity] pairs that touch, by the last look; owned */
+    uint32_t linked;     /* pairs that have links: */
+    uint32_t *first;     /* [point_count] 4 x pair + place of its first; UINT32_MAX: none; owned */
+    uint32_t (*next)[4]; /* [pair_capacity] likewise the next after each place; owned */
+    uint32_t *hits;      /* [pair_capacity] pairs that touch, by the last look; owned */
     uint32_t hit_count;
+    uint32_t *moved; /* [point_count] points moved since the last look, in order; owned */
+    uint32_t moved_count;
+    uint32_t *again; /* [point_count] points that have strayed too far; owned */
+    uint32_t again_count;
+    uint32_t *around;       /* [triangle_count] the triangles around them; owned */
+    unsigned char *stirred; /* [point_count] 1: in moved; owned */
+    unsigned char *marked;  /* [point_count] 1: in again; owned */
     unsigned char *held;    /* [point_count] by pins, as if their mass were infinite; owned */
-    unsigned char *stirred; /* [point_count] moved since the last look; owned */
     uint32_t *zone;         /* [point_count] a point of the same zone; owned */
     double (*drift)
         [8]; /* [point_count] of the zone at its root: mass x way, mass, mass x velocity, 1 if it is held; owned */
-    double *strayed; /* [part_count] the largest square; owned */
+    struct contact_share {
+        double stray, pace; /* the largest squares */
+        uint32_t count;     /* of points that have strayed too far */
+    } * share;              /* [part_count] owned */
 };
 
-/* contact_pairs.c: finds the pairs for the lines and the stray at hand. STATUS_RANGE when more is near than there is room for. */
-enum status contact_list_find(struct sim *sim, struct error *err);
+/* contact_pairs.c: finds the pairs for the lines and the reaches at hand, from the present step's beginning on: all, or those of the points in c->again,
+ * in place of those that are known. STATUS_RANGE when more is near than there is room for. */
+enum status contact_pairs_find(struct sim *sim, struct error *err);
+enum status contact_pairs_find_again(struct sim *sim, struct error *err);
+/* Links all pairs to their points: c->first and c->next. */
+void contact_pairs_link(struct sim *sim);
 
 /* contact_list.c: makes the list anew, for this step and those that would follow on the same lines. Errors: those of finding. */
 enum status contact_list_make(struct sim *sim, struct error *err);
-/* Whether the list at hand holds for the present step's ways. */
-bool contact_list_holds(struct sim *sim);
-/* How much of its lines is gone at the end of the present step: 0 to 1 while it holds. */
+/* Sees to it that the list holds for the present step's ways: of all points; of those in c->moved, where it held for the others. */
+enum status contact_list_follow(struct sim *sim, struct error *err);
+enum status contact_list_follow_moved(struct sim *sim, struct error *err);
+/* How much of its lines is gone at the end of the present step, and at its beginning: 0 to 1 while it holds. */
 double contact_list_gone(const struct sim *sim);
+double contact_list_gone_before(const struct sim *sim);
 
-/* The four points of a pair. */
-void contact_points(const struct sim *sim, const struct contact_pair *pair, uint32_t points[4]);
+/* Where four points are. */
 void contact_gather(double (*x)[4], const uint32_t points[4], double places[4][3]);
 
-/* contact_solve.c: finds the pairs that touch, in an order of their own, among those that have a stirred point (and are not in one zone,
- * where zones is true); true if there are any. */
-bool contact_look(struct sim *sim, bool zones);
-/* Takes the approach from each that contact_look() has found. */
-void contact_push(struct sim *sim);
+/* contact_solve.c: finds the pairs that touch, in an order of their own: among all, or (and not in one zone, where zones is true) among those of the
+ * points in c->moved. True if there are any. */
+bool contact_look(struct sim *sim);
+bool contact_look_at_moved(struct sim *sim, bool zones);
+/* c->moved: from now on nothing; and a point. */
+void contact_rest(struct contact *c);
+void contact_move(struct contact *c, uint32_t point);
 /* The whole: after a step. */
 enum status contact_settle(struct sim *sim, struct error *err);
 
-/* contact_zones.c: ends what contact_push() could not. */
+/* contact_zones.c: ends what pushes could not. */
 enum status contact_freeze(struct sim *sim, struct error *err);
 
 #endif

@@ -11,6 +11,9 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
 
 /* x, y, z and 0. The compilers' vectors: comparisons in loops would stay one by one. */
 typedef float box_row __attribute__((vector_size(4 * sizeof(float)), may_alias));
@@ -20,9 +23,25 @@ struct contact_box {
     box_row low[2], high[2]; /* where the lines begin and end */
 };
 
-static inline box_row box_select(box_mask mask, box_row where_true, box_row where_false)
+/* Number by number. */
+static inline box_row box_least(box_row a, box_row b)
 {
-    return (box_row)((mask & (box_mask)where_true) | (~mask & (box_mask)where_false));
+#ifdef __SSE__
+    return (box_row)_mm_min_ps((__m128)a, (__m128)b);
+#else
+    const box_mask mask = b < a;
+    return (box_row)((mask & (box_mask)b) | (~mask & (box_mask)a));
+#endif
+}
+
+static inline box_row box_most(box_row a, box_row b)
+{
+#ifdef __SSE__
+    return (box_row)_mm_max_ps((__m128)a, (__m128)b);
+#else
+    const box_mask mask = b > a;
+    return (box_row)((mask & (box_mask)b) | (~mask & (box_mask)a));
+#endif
 }
 
 /* The box of nothing. */
@@ -51,8 +70,8 @@ static inline struct contact_box contact_box_point(const double from[3], const d
 static inline void contact_box_join(struct contact_box *box, const struct contact_box *other)
 {
     for (int e = 0; e < 2; e++) {
-        box->low[e] = box_select(other->low[e] < box->low[e], other->low[e], box->low[e]);
-        box->high[e] = box_select(other->high[e] > box->high[e], other->high[e], box->high[e]);
+        box->low[e] = box_least(box->low[e], other->low[e]);
+        box->high[e] = box_most(box->high[e], other->high[e]);
     }
 }
 

@@ -1,19 +1,9 @@
 /* The list of pairs that can come near each other: of points and triangles and of edges, from the triangles whose boxes meet. */
+#include "common/threads.h"
 #include "common/vec3.h"
 #include "sim/contact.h"
 
 #include <string.h>
-
-void contact_points(const struct sim *sim, const struct contact_pair *pair, uint32_t points[4])
-{
-    if (pair->kind == CCD_POINT_TRIANGLE) {
-        points[0] = pair->a;
-        memcpy(points + 1, sim->triangle_point[pair->b], 3 * sizeof *points);
-    } else {
-        memcpy(points, sim->edge_point[pair->a], 2 * sizeof *points);
-        memcpy(points + 2, sim->edge_point[pair->b], 2 * sizeof *points);
-    }
-}
 
 void contact_gather(double (*x)[4], const uint32_t points[4], double places[4][3])
 {
@@ -21,162 +11,165 @@ void contact_gather(double (*x)[4], const uint32_t points[4], double places[4][3
         memcpy(places[i], x[points[i]], 3 * sizeof(double));
 }
 
-/* A pair of triangles shares points and edges with its neighbours: each belongs to the first active triangle that has it. */
-static void find_owned(const struct sim *sim, struct contact *c)
+/* The triangles around each point, by counting: those of p end where those of p + 1 begin. */
+static void find_stars(const struct sim *sim, struct contact *c)
 {
-    memset(c->point_taken, 0, sim->point_count);
-    memset(c->edge_taken, 0, sim->edge_count);
-    for (uint32_t t = 0; t < sim->triangle_count; t++) {
-        unsigned char bits = 0;
-        for (int k = 0; k < 3 && sim->triangle_active[t]; k++) {
-            unsigned char *point = &c->point_taken[sim->triangle_point[t][k]],
-                          *edge = &c->edge_taken[sim->triangle_edge[t][k]];
-            bits |= (unsigned char)(!*point << k | !*edge << (k + 3));
-            *point = *edge = 1;
-        }
-        c->owned[t] = bits;
+    memset(c->star_end, 0, sim->point_count * sizeof *c->star_end);
+    for (uint32_t t = 0; t < sim->triangle_count; t++)
+        for (int k = 0; k < 3; k++)
+            c->star_end[sim->triangle_point[t][k]]++;
+    uint32_t end = 0;
+    for (uint32_t p = 0; p < sim->point_count; p++) {
+        const uint32_t count = c->star_end[p];
+        c->star_end[p] = end; /* where they begin, until they are entered */
+        end += count;
     }
+    for (uint32_t t = 0; t < sim->triangle_count; t++)
+        for (int k = 0; k < 3; k++)
+            c->star[c->star_end[sim->triangle_point[t][k]]++] = t;
 }
 
 struct finder {
     const struct sim *sim;
     struct contact *contact;
+    double gone; /* of the lines, where the present step begins */
 };
 
-static bool shares_point(const struct contact_pair *pair, const uint32_t p[4])
+static bool shares_point(enum ccd_kind kind, const uint32_t p[4])
 {
-    if (pair->kind == CCD_POINT_TRIANGLE)
+    if (kind == CCD_POINT_TRIANGLE)
         return p[0] == p[1] || p[0] == p[2] || p[0] == p[3];
     return p[0] == p[2] || p[0] == p[3] || p[1] == p[2] || p[1] == p[3];
 }
 
-static void take_pair(const struct finder *f, struct contact_pair pair)
+static double reach_of(const struct contact *c, const uint32_t *p, int count)
 {
-    struct contact *c = f->contact;
-    uint32_t p[4];
-    double from[4][3], to[4][3];
-    struct ccd_touch touch;
-    const double room = 2 * c->memory.stray + c->thickness;
-    contact_points(f->sim, &pair, p);
-    if (shares_point(&pair, p))
-        return;
-    contact_gather(c->from, p, from);
-    contact_gather(c->to, p, to);
-    const double distance = ccd_distance((enum ccd_kind)pair.kind, from, &touch),
-                 approach = ccd_approach((enum ccd_kind)pair.kind, from, to);
-    if (distance - approach > room)
-        return;
-    pair.distance = (float)(distance * (1 - 1e-6)); /* rounded down */
-    pair.approach = (float)(approach * (1 + 1e-6));
-    const uint32_t place = __atomic_fetch_add(&c->pair_count, 1, __ATOMIC_RELAXED);
-    if (place < c->pair_capacity)
-        c->pairs[place] = pair;
+    float reach = 0;
+    for (int i = 0; i < count; i++)
+        reach = c->reach[p[i]] > reach ? c->reach[p[i]] : reach;
+    return (double)reach;
 }
 
-static void take_points(const struct finder *f, uint32_t t, uint32_t u)
+/* Of those that are taken the pairs that can touch come onto the list. */
+static void list_taken(const struct finder *f, struct contact_taken *taken, enum ccd_kind kind)
 {
-    const struct contact_tree *tree = &f->contact->tree;
-    for (int k = 0; k < 3; k++) {
-        const uint32_t p = f->sim->triangle_point[t][k];
-        if (f->contact->owned[t] >> k & 1 && contact_boxes_meet(&tree->point[p], &tree->box[u]))
-            take_pair(f, (struct contact_pair){p, u, CCD_POINT_TRIANGLE, 0, 0});
+    struct contact *c = f->contact;
+    const struct contact_flock flock = {kind, c->from, c->to, f->gone};
+    const int first = kind == CCD_POINT_TRIANGLE ? 1 : 2;
+    double apart[CONTACT_TAKEN][2];
+    c->kernels->apart(&flock, taken->point[kind], taken->count[kind], apart);
+    for (uint32_t i = 0; i < taken->count[kind]; i++) {
+        const uint32_t *p = taken->point[kind][i];
+        const double room = reach_of(c, p, first) + reach_of(c, p + first, 4 - first) + c->thickness;
+        if (fmin(apart[i][0], apart[i][1]) > room)
+            continue;
+        const double pace = (apart[i][0] - apart[i][1]) / (1 - f->gone),
+                     at_first = apart[i][0] + f->gone * pace;
+        const uint32_t place = __atomic_fetch_add(&c->pair_count, 1, __ATOMIC_RELAXED);
+        if (place < c->pair_capacity)
+            c->pairs[place] = (struct contact_pair){{p[0], p[1], p[2], p[3]},
+                                                    kind,
+                                                    (float)(at_first - 1e-6 * (fabs(at_first) + fabs(pace))),
+                                                    (float)pace};
+    }
+    taken->count[kind] = 0;
+}
+
+static void take_pair(const struct finder *f, struct contact_taken *taken, enum ccd_kind kind,
+                      const uint32_t p[4])
+{
+    if (shares_point(kind, p))
+        return;
+    memcpy(taken->point[kind][taken->count[kind]++], p, 4 * sizeof *p);
+    for (int k = 0; k < 4; k++) { /* wanted soon */
+        __builtin_prefetch(f->contact->from[p[k]]);
+        __builtin_prefetch(f->contact->to[p[k]]);
+    }
+    if (taken->count[kind] == CONTACT_TAKEN)
+        list_taken(f, taken, kind);
+}
+
+/* What is left at the end of a search. */
+static void list_rest(const struct finder *f, unsigned workers)
+{
+    for (unsigned i = 0; i < workers; i++) {
+        list_taken(f, &f->contact->taken[i], CCD_POINT_TRIANGLE);
+        list_taken(f, &f->contact->taken[i], CCD_EDGES);
     }
 }
 
-/* Of a triangle's own edges those that come near a box; returns how many. */
-static int own_edges(const struct finder *f, uint32_t t, const struct contact_box *near, uint32_t edges[3],
-                     struct contact_box boxes[3])
+/* The first leaf's points and the second's triangles. */
+static void take_points(const struct finder *f, struct contact_taken *taken, uint32_t a, uint32_t b)
 {
-    const struct contact_box *point = f->contact->tree.point;
+    const struct contact_tree *tree = &f->contact->tree;
+    const struct contact_node *node = &tree->nodes[b];
+    const struct contact_leaf *leaf = &tree->leaves[tree->nodes[a].number];
+    for (uint32_t i = leaf->point_begin; i < leaf->point_end; i++) {
+        const uint32_t p = tree->leaf_point[i];
+        const struct contact_box *box = &tree->point[p];
+        for (uint32_t j = node->begin; j < node->end && (a == b || contact_boxes_meet(box, &node->box));
+             j++) {
+            const uint32_t *corners = f->sim->triangle_point[tree->order[j]];
+            if (contact_boxes_meet(box, &tree->box[j]))
+                take_pair(f, taken, CCD_POINT_TRIANGLE, (uint32_t[]){p, corners[0], corners[1], corners[2]});
+        }
+    }
+}
+
+static void take_two_edges(const struct finder *f, struct contact_taken *taken, uint32_t e, uint32_t g)
+{
+    const uint32_t *low = f->sim->edge_point[e < g ? e : g], *high = f->sim->edge_point[e < g ? g : e];
+    take_pair(f, taken, CCD_EDGES, (uint32_t[]){low[0], low[1], high[0], high[1]});
+}
+
+/* Of a leaf's edges those that come near a box, by their places in leaf_edge; returns how many. */
+static int edges_near(const struct contact_tree *tree, uint32_t node, const struct contact_box *box,
+                      uint32_t edges[CONTACT_BESIDE])
+{
+    const struct contact_leaf *leaf = &tree->leaves[tree->nodes[node].number];
     int count = 0;
-    for (int i = 0; i < 3; i++) {
-        const uint32_t edge = f->sim->triangle_edge[t][i], *ends = f->sim->edge_point[edge];
-        if (!(f->contact->owned[t] >> (i + 3) & 1))
-            continue;
-        boxes[count] = point[ends[0]];
-        contact_box_join(&boxes[count], &point[ends[1]]);
-        edges[count] = edge;
-        count += contact_boxes_meet(&boxes[count], near);
+    for (uint32_t i = leaf->edge_begin; i < leaf->edge_end; i++) {
+        edges[count] = i;
+        count += contact_boxes_meet(&tree->edge_box[i], box);
     }
     return count;
 }
 
-static void take_edges(const struct finder *f, uint32_t t, uint32_t u)
+static void take_edges(const struct finder *f, struct contact_taken *taken, uint32_t a, uint32_t b)
 {
     const struct contact_tree *tree = &f->contact->tree;
-    uint32_t a[3], b[3];
-    struct contact_box of_a[3], of_b[3];
-    const int first = own_edges(f, t, &tree->box[u], a, of_a);
-    const int second = first ? own_edges(f, u, &tree->box[t], b, of_b) : 0;
+    uint32_t of_a[CONTACT_BESIDE], of_b[CONTACT_BESIDE];
+    const int first = edges_near(tree, a, &tree->nodes[b].box, of_a);
+    const int second = first ? edges_near(tree, b, &tree->nodes[a].box, of_b) : 0;
     for (int i = 0; i < first; i++)
-        for (int j = 0; j < second; j++)
-            if (contact_boxes_meet(&of_a[i], &of_b[j]))
-                take_pair(f, (struct contact_pair){a[i] < b[j] ? a[i] : b[j], a[i] < b[j] ? b[j] : a[i],
-                                                   CCD_EDGES, 0, 0});
+        for (int j = a == b ? i + 1 : 0; j < second; j++)
+            if (contact_boxes_meet(&tree->edge_box[of_a[i]], &tree->edge_box[of_b[j]]))
+                take_two_edges(f, taken, tree->leaf_edge[of_a[i]], tree->leaf_edge[of_b[j]]);
 }
 
-/* The only point that two triangles share; MESH_NONE: there are none or more. */
-static uint32_t shared_point(const uint32_t t[3], const uint32_t u[3])
-{
-    uint32_t shared = MESH_NONE, count = 0;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            if (t[i] == u[j]) {
-                shared = t[i];
-                count++;
-            }
-    return count == 1 ? shared : MESH_NONE;
-}
-
-/* Triangles t and u that share a point, as they stand at one end of the lines: whether there is room between a plane across the
- * direction n at that point and all other points, of t on one side and of u on the other. */
-static bool is_room_at(double (*x)[4], const uint32_t t[3], const uint32_t u[3], uint32_t shared,
-                       const double n[3], double room)
-{
-    const double middle = vec3_dot(x[shared], n);
-    for (int i = 0; i < 3; i++)
-        if ((t[i] != shared && vec3_dot(x[t[i]], n) - middle < room) ||
-            (u[i] != shared && middle - vec3_dot(x[u[i]], n) < room))
-            return false;
-    return true;
-}
-
-/* Such triangles as they nearly always are in a sheet: all that they do not share is apart, on both sides of a plane, all the way. */
-static bool is_sheet(const struct contact *c, const uint32_t t[3], const uint32_t u[3])
-{
-    const uint32_t shared = shared_point(t, u);
-    double n[3];
-    if (shared == MESH_NONE)
-        return false;
-    for (int k = 0; k < 3; k++)
-        n[k] = c->from[t[0]][k] + c->from[t[1]][k] + c->from[t[2]][k] - c->from[u[0]][k] - c->from[u[1]][k] -
-               c->from[u[2]][k];
-    const double room = (2 * c->memory.stray + c->thickness) * vec3_length(n);
-    return room > 0 && is_room_at(c->from, t, u, shared, n, room) && is_room_at(c->to, t, u, shared, n, room);
-}
-
-static void take_triangles(void *context, uint32_t t, uint32_t u)
+static void take_leaves(void *context, unsigned worker, uint32_t a, uint32_t b)
 {
     const struct finder *f = context;
-    if (is_sheet(f->contact, f->sim->triangle_point[t], f->sim->triangle_point[u]))
-        return;
-    take_points(f, t, u);
-    take_points(f, u, t);
-    take_edges(f, t, u);
+    struct contact_taken *taken = &f->contact->taken[worker];
+    take_points(f, taken, a, b);
+    if (a != b)
+        take_points(f, taken, b, a);
+    take_edges(f, taken, a, b);
 }
 
-enum status contact_list_find(struct sim *sim, struct error *err)
+static void share_anew(struct sim *sim)
 {
     struct contact *c = sim->contact;
-    struct contact_ways ways = {c->from, c->to, c->memory.stray, c->thickness};
-    struct finder finder = {sim, c};
-    if (c->owned_broken != sim->broken || c->listed + 1 != c->memory.made)
-        find_owned(sim, c);
-    c->owned_broken = sim->broken;
-    c->pair_count = 0;
-    contact_tree_fit(&c->tree, sim, &ways);
-    contact_tree_pairs(&c->tree, sim, take_triangles, &finder);
-    c->listed = c->memory.made;
+    if (c->shared_broken == sim->broken && c->listed + 1 == c->memory.found)
+        return;
+    contact_tree_share(&c->tree, sim);
+    find_stars(sim, c);
+    c->shared_broken = sim->broken;
+}
+
+static enum status check_room(const struct sim *sim, struct error *err)
+{
+    const struct contact *c = sim->contact;
     if (c->pair_count <= c->pair_capacity)
         return STATUS_OK;
     return error_set(
@@ -184,4 +177,187 @@ enum status contact_list_find(struct sim *sim, struct error *err)
         "%s: contact at time %g: %u pairs of points, edges and triangles are near each other, and there is "
         "room for %u; contact.thickness = %g is too much for edges of this length, or the skin is crushed",
         sim->scene->path, sim->time, c->pair_count, c->pair_capacity, c->thickness);
+}
+
+static struct contact_ways ways_of(const struct contact *c)
+{
+    return (struct contact_ways){c->from, c->to, c->reach, c->thickness};
+}
+
+enum status contact_pairs_find(struct sim *sim, struct error *err)
+{
+    struct contact *c = sim->contact;
+    const struct contact_ways ways = ways_of(c);
+    struct finder finder = {sim, c, contact_list_gone_before(sim)};
+    share_anew(sim);
+    c->pair_count = c->linked = 0;
+    contact_tree_fit(&c->tree, sim, &ways);
+    contact_tree_pairs(&c->tree, sim, take_leaves, &finder);
+    list_rest(&finder, threads_workers(sim->pool));
+    c->listed = c->memory.found;
+    return check_room(sim, err);
+}
+
+void contact_pairs_link(struct sim *sim)
+{
+    struct contact *c = sim->contact;
+    if (c->linked == 0)
+        memset(c->first, 0xff, sim->point_count * sizeof *c->first);
+    for (; c->linked < c->pair_count; c->linked++)
+        for (uint32_t k = 0; k < 4; k++) {
+            uint32_t *first = &c->first[c->pairs[c->linked].point[k]];
+            c->next[c->linked][k] = *first;
+            *first = 4 * c->linked + k;
+        }
+}
+
+/* Pairs at that distance are never looked at again. */
+static void forget_pairs(struct contact *c, uint32_t point)
+{
+    for (uint32_t at = c->first[point]; at != UINT32_MAX; at = c->next[at / 4][at % 4])
+        c->pairs[at / 4].distance = INFINITY;
+}
+
+/* What is near a point that is marked: all pairs with it, but for those with a lower one that is marked too. */
+enum { VICINITY_MOST = 64 };
+struct vicinity {
+    const struct finder *finder;
+    struct contact_taken *taken;
+    uint32_t point, count;
+    uint32_t triangle[VICINITY_MOST], edge[2 * VICINITY_MOST]; /* around it: so many triangles, */
+    uint32_t edge_count;                                       /* and so many edges that lead to it */
+    struct contact_box box[VICINITY_MOST], edge_box[2 * VICINITY_MOST], all;
+};
+
+static bool is_ours(const struct vicinity *r, const uint32_t *p, int count)
+{
+    const unsigned char *marked = r->finder->contact->marked;
+    bool ours = true;
+    for (int i = 0; i < count; i++)
+        ours &= !marked[p[i]] || p[i] >= r->point;
+    return ours;
+}
+
+static void take_near_points(const struct vicinity *r, const struct contact_tree *tree,
+                             const struct contact_node *node)
+{
+    const struct sim *sim = r->finder->sim;
+    const struct contact_leaf *leaf = &tree->leaves[node->number];
+    for (uint32_t i = node->begin; i < node->end; i++) {
+        const uint32_t *c = sim->triangle_point[tree->order[i]];
+        if (contact_boxes_meet(&tree->point[r->point], &tree->box[i]) && is_ours(r, c, 3))
+            take_pair(r->finder, r->taken, CCD_POINT_TRIANGLE, (uint32_t[]){r->point, c[0], c[1], c[2]});
+    }
+    for (uint32_t i = leaf->point_begin; i < leaf->point_end; i++) {
+        const uint32_t p = tree->leaf_point[i];
+        for (uint32_t j = 0; j < r->count && contact_boxes_meet(&tree->point[p], &r->all); j++) {
+            const uint32_t *c = sim->triangle_point[r->triangle[j]];
+            if (contact_boxes_meet(&tree->point[p], &r->box[j]) && is_ours(r, &p, 1) && is_ours(r, c, 3))
+                take_pair(r->finder, r->taken, CCD_POINT_TRIANGLE, (uint32_t[]){p, c[0], c[1], c[2]});
+        }
+    }
+}
+
+static void take_near(void *context, uint32_t leaf)
+{
+    const struct vicinity *r = context;
+    const struct contact_tree *tree = &r->finder->contact->tree;
+    uint32_t near[CONTACT_BESIDE];
+    take_near_points(r, tree, &tree->nodes[leaf]);
+    const int count = edges_near(tree, leaf, &r->all, near);
+    for (int i = 0; i < count; i++)
+        for (uint32_t j = 0; j < r->edge_count; j++) {
+            const uint32_t e = tree->leaf_edge[near[i]], g = r->edge[j];
+            if (contact_boxes_meet(&tree->edge_box[near[i]], &r->edge_box[j]) &&
+                is_ours(r, r->finder->sim->edge_point[e], 2) && is_ours(r, r->finder->sim->edge_point[g], 2))
+                take_two_edges(r->finder, r->taken, e, g);
+        }
+}
+
+/* The triangles around it, with their boxes, and the edges to it, each once. */
+static void gather_vicinity(struct vicinity *r, const uint32_t *star)
+{
+    const struct sim *sim = r->finder->sim;
+    const struct contact_tree *tree = &r->finder->contact->tree;
+    r->all = contact_box_empty();
+    r->edge_count = 0;
+    for (uint32_t i = 0; i < r->count; i++) {
+        const uint32_t t = r->triangle[i] = star[i], *p = sim->triangle_point[t];
+        r->box[i] = tree->point[p[0]];
+        contact_box_join(&r->box[i], &tree->point[p[1]]);
+        contact_box_join(&r->box[i], &tree->point[p[2]]);
+        contact_box_join(&r->all, &r->box[i]);
+        for (int k = 0; k < 3; k++) {
+            const uint32_t edge = sim->triangle_edge[t][k], *ends = sim->edge_point[edge];
+            bool known = ends[0] != r->point && ends[1] != r->point;
+            for (uint32_t j = 0; j < r->edge_count; j++)
+                known |= r->edge[j] == edge;
+            if (known)
+                continue;
+            r->edge_box[r->edge_count] = tree->point[ends[0]];
+            contact_box_join(&r->edge_box[r->edge_count], &tree->point[ends[1]]);
+            r->edge[r->edge_count++] = edge;
+        }
+    }
+}
+
+static void find_vicinity(void *context, size_t index, unsigned worker)
+{
+    const struct finder *f = context;
+    const struct contact *c = f->contact;
+    const uint32_t p = c->again[index], begin = p ? c->star_end[p - 1] : 0;
+    struct vicinity r;
+    r.finder = f;
+    r.taken = &f->contact->taken[worker];
+    r.point = p;
+    r.count = c->star_end[p] - begin;
+    gather_vicinity(&r, c->star + begin);
+    contact_tree_near(&c->tree, &r.all, take_near, &r);
+}
+
+/* The triangles around the points in c->again, each once; returns how many, or UINT32_MAX where too many are around one. */
+static uint32_t list_around(const struct sim *sim, struct contact *c)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < c->again_count; i++) {
+        const uint32_t p = c->again[i];
+        if (c->star_end[p] - (p ? c->star_end[p - 1] : 0) > VICINITY_MOST)
+            return UINT32_MAX;
+        for (uint32_t s = p ? c->star_end[p - 1] : 0; s < c->star_end[p]; s++) {
+            const uint32_t *corner = sim->triangle_point[c->star[s]];
+            uint32_t lowest = UINT32_MAX;
+            for (int k = 0; k < 3; k++)
+                lowest = c->marked[corner[k]] && corner[k] < lowest ? corner[k] : lowest;
+            if (lowest == p)
+                c->around[count++] = c->star[s];
+        }
+    }
+    return count;
+}
+
+enum status contact_pairs_find_again(struct sim *sim, struct error *err)
+{
+    struct contact *c = sim->contact;
+    const struct contact_ways ways = ways_of(c);
+    struct finder finder = {sim, c, contact_list_gone_before(sim)};
+    share_anew(sim);
+    contact_pairs_link(sim);
+    for (uint32_t i = 0; i < c->again_count; i++) {
+        forget_pairs(c, c->again[i]);
+        c->marked[c->again[i]] = 1;
+    }
+    enum status status = STATUS_OK;
+    const uint32_t around = list_around(sim, c);
+    if (around != UINT32_MAX &&
+        contact_tree_refit(&c->tree, sim, &ways, c->again, c->again_count, c->around, around)) {
+        threads_run(sim->pool, c->again_count, find_vicinity, &finder);
+        contact_tree_pairs_opened(&c->tree, sim, take_leaves, &finder);
+        list_rest(&finder, threads_workers(sim->pool));
+    } else {
+        status = contact_pairs_find(sim, err);
+    }
+    for (uint32_t i = 0; i < c->again_count; i++)
+        c->marked[c->again[i]] = 0;
+    c->listed = c->memory.found;
+    return status ? status : check_room(sim, err);
 }

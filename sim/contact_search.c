@@ -1,4 +1,4 @@
-/* Which triangles meet: down the tree of contact_tree.c, shared out among the workers. */
+/* Which leaves meet: down the tree of contact_tree.c, shared out among the workers. */
 #include "common/threads.h"
 #include "sim/contact_tree.h"
 
@@ -6,20 +6,19 @@
 
 struct search {
     struct contact_tree *tree;
-    void (*take)(void *context, uint32_t t, uint32_t u);
+    void (*take)(void *context, unsigned worker, uint32_t a, uint32_t b);
     void *context;
 };
 
-static void take_leaves(const struct search *s, const struct contact_node *a, const struct contact_node *b)
+/* Two leaves that hang together, and look to one side. */
+static bool are_one_patch(const struct contact_tree *tree, struct contact_job job)
 {
-    const uint32_t *order = s->tree->order;
-    const struct contact_box *box = s->tree->box;
-    for (uint32_t i = a->begin; i < a->end; i++)
-        for (uint32_t j = a == b ? i + 1 : b->begin; j < b->end; j++) {
-            const uint32_t t = order[i], u = order[j];
-            if (contact_boxes_meet(&box[t], &box[u]))
-                s->take(s->context, t < u ? t : u, t < u ? u : t);
-        }
+    const struct contact_node *a = &tree->nodes[job.a], *b = &tree->nodes[job.b];
+    const uint32_t *beside = tree->beside[a->number];
+    uint32_t found = 0;
+    for (int i = 0; i < CONTACT_BESIDE; i++)
+        found |= beside[i] == job.b;
+    return found && a->sides & b->sides && a->connected && b->connected;
 }
 
 /* What two nodes, or one and itself, come to: up to three smaller jobs. 0: leaves, or nothing. */
@@ -48,23 +47,22 @@ static bool is_empty(const struct contact_tree *tree, struct contact_job job)
     return job.a == job.b ? a->sides && a->connected : !contact_boxes_meet(&a->box, &b->box);
 }
 
-static void search(const struct search *s, struct contact_job job)
+static void search(const struct search *s, unsigned worker, struct contact_job job)
 {
     struct contact_job parts[3];
     if (is_empty(s->tree, job))
         return;
     const int count = divide(s->tree, job, parts);
-    if (count == 0)
-        take_leaves(s, &s->tree->nodes[job.a], &s->tree->nodes[job.b]);
+    if (count == 0 && (job.a == job.b || !are_one_patch(s->tree, job)))
+        s->take(s->context, worker, job.a, job.b);
     for (int i = 0; i < count; i++)
-        search(s, parts[i]);
+        search(s, worker, parts[i]);
 }
 
 static void search_one(void *context, size_t index, unsigned worker)
 {
-    (void)worker;
     const struct search *s = context;
-    search(s, s->tree->jobs[index]);
+    search(s, worker, s->tree->jobs[index]);
 }
 
 /* Divides the jobs at hand until there are enough to share out; what comes to nothing is dropped. */
@@ -91,9 +89,9 @@ static void share_out(struct contact_tree *tree)
 }
 
 void contact_tree_pairs(struct contact_tree *tree, struct sim *sim,
-                        void (*take)(void *context, uint32_t t, uint32_t u), void *context)
+                        void (*take)(void *context, unsigned worker, uint32_t a, uint32_t b), void *context)
 {
-    struct search s = {tree, take, context};
+    struct search s = {.tree = tree, .take = take, .context = context};
     for (size_t i = 0; i < sim->balloon_count; i++)
         for (size_t j = i; j < sim->balloon_count; j++) {
             tree->jobs[0] = (struct contact_job){tree->root[i], tree->root[j]};
@@ -101,4 +99,24 @@ void contact_tree_pairs(struct contact_tree *tree, struct sim *sim,
             share_out(tree);
             threads_run(sim->pool, tree->job_count, search_one, &s);
         }
+}
+
+void contact_tree_pairs_opened(struct contact_tree *tree, struct sim *sim,
+                               void (*take)(void *context, unsigned worker, uint32_t a, uint32_t b),
+                               void *context)
+{
+    struct search s = {.tree = tree, .take = take, .context = context};
+    threads_run(sim->pool, tree->job_count, search_one, &s);
+}
+
+void contact_tree_near(const struct contact_tree *tree, const struct contact_box *box,
+                       void (*take)(void *context, uint32_t leaf), void *context)
+{
+    for (uint32_t n = 0; n < tree->node_count;) {
+        const struct contact_node *node = &tree->nodes[n];
+        const bool meets = contact_boxes_meet(&node->box, box);
+        if (meets && !node->right)
+            take(context, n);
+        n = meets ? n + 1 : node->next;
+    }
 }

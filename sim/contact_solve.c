@@ -11,7 +11,7 @@ enum { ROUNDS_MAX = 40 };
 
 /* Ways that a pair may go, and how near. */
 struct approach {
-    uint32_t p[4];
+    const uint32_t *p;
     double from[4][3], to[4][3];
     double distance; /* at the start */
     struct ccd_touch touch;
@@ -21,13 +21,14 @@ struct approach {
 static bool approaches(const struct sim *sim, const struct contact_pair *pair, struct approach *a)
 {
     const struct contact *c = sim->contact;
-    contact_points(sim, pair, a->p);
+    a->p = pair->point;
     contact_gather(sim->before, a->p, a->from);
     contact_gather(sim->position, a->p, a->to);
     const enum ccd_kind kind = (enum ccd_kind)pair->kind;
     a->distance = ccd_distance(kind, a->from, &a->touch);
     const double gap = fmin(a->distance, c->thickness) / 2;
-    if (a->distance <= 1e-9 * c->thickness || a->distance - ccd_approach(kind, a->from, a->to) > gap)
+    if (a->distance <= 1e-9 * c->thickness || ccd_apart(kind, &a->touch, a->to) > gap ||
+        a->distance - ccd_approach(kind, a->from, a->to) > gap)
         return false;
     return ccd_meet(kind, a->from, a->to, gap, &a->touch);
 }
@@ -35,42 +36,135 @@ static bool approaches(const struct sim *sim, const struct contact_pair *pair, s
 struct look {
     const struct sim *sim;
     bool zones;
-    uint32_t *hit_count;
-    double growth, gone, far; /* pairs that are further from each other do not touch */
+    double growth, gone[2]; /* at the step's beginning and end */
 };
 
-enum { PAIRS_AT_ONCE = 256 };
+static inline float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
 
-static void look_at(void *context, size_t index, unsigned worker)
+/* Whether they may be near enough at all, by what is known of their lines and of how far the points strayed:
+ * (a + b)^2 <= 2 (a^2 + b^2). Without branches, since nobody can guess. */
+static inline bool may_touch(const struct look *look, const struct contact_pair *pair)
+{
+    const struct contact *c = look->sim->contact;
+    const uint32_t *p = pair->point;
+    const float *s = c->strayed, first = s[p[0]], second = s[p[1]], high = larger(s[p[2]], s[p[3]]);
+    const bool edges = pair->kind == CCD_EDGES;
+    const double approach = (double)pair->approach, gone = look->gone[approach > 0],
+                 room = look->growth * ((double)pair->distance - gone * approach) - c->thickness / 2,
+                 squares = (double)(larger(first, edges ? second : 0) + larger(high, edges ? 0 : second));
+    return (room <= 0) | (room * room <= 2.00001 * squares);
+}
+
+/* Pairs of a kind that are worth a nearer look, some at a time. */
+enum { PAIRS_AT_ONCE = 256, POINTS_AT_ONCE = 8 };
+
+struct sieve {
+    const struct look *look;
+    uint32_t count[2];
+    uint32_t pair[2][PAIRS_AT_ONCE], point[2][PAIRS_AT_ONCE][4];
+};
+
+/* Whether a pair surely does not approach, by how far it is apart along a line. It begins no nearer than that, and to rounding no further. */
+static bool is_clear(const struct contact *c, const double apart[2])
+{
+    return apart[0] > 1e-6 * c->thickness && apart[1] > 0.500001 * fmin(apart[0], c->thickness);
+}
+
+static void look_closely(struct sieve *sieve, enum ccd_kind kind)
+{
+    const struct sim *sim = sieve->look->sim;
+    struct contact *c = sim->contact;
+    struct contact_flock flock = {kind, sim->before, sim->position, 0};
+    double apart[PAIRS_AT_ONCE][2];
+    c->kernels->apart(&flock, sieve->point[kind], sieve->count[kind], apart);
+    for (uint32_t i = 0; i < sieve->count[kind]; i++) {
+        struct approach a;
+        if (!is_clear(c, apart[i]) && approaches(sim, &c->pairs[sieve->pair[kind][i]], &a))
+            c->hits[__atomic_fetch_add(&c->hit_count, 1, __ATOMIC_RELAXED)] = sieve->pair[kind][i];
+    }
+    sieve->count[kind] = 0;
+}
+
+static inline void take_in(struct sieve *sieve, uint32_t i)
+{
+    const struct contact_pair *pair = &sieve->look->sim->contact->pairs[i];
+    const uint32_t *p = pair->point, *zone = sieve->look->sim->contact->zone;
+    if (sieve->look->zones && zone[p[0]] == zone[p[1]] && zone[p[0]] == zone[p[2]] &&
+        zone[p[0]] == zone[p[3]])
+        return;
+    const uint32_t place = sieve->count[pair->kind]++;
+    sieve->pair[pair->kind][place] = i;
+    memcpy(sieve->point[pair->kind][place], p, 4 * sizeof *p);
+    for (int k = 0; k < 4; k++) { /* wanted soon */
+        __builtin_prefetch(sieve->look->sim->before[p[k]]);
+        __builtin_prefetch(sieve->look->sim->position[p[k]]);
+    }
+    if (place + 1 == PAIRS_AT_ONCE)
+        look_closely(sieve, (enum ccd_kind)pair->kind);
+}
+
+static void end_look(struct sieve *sieve)
+{
+    look_closely(sieve, CCD_POINT_TRIANGLE);
+    look_closely(sieve, CCD_EDGES);
+}
+
+static void begin_look(struct sieve *sieve, const struct look *look)
+{
+    sieve->look = look;
+    sieve->count[0] = sieve->count[1] = 0;
+}
+
+static void look_at_some(void *context, size_t index, unsigned worker)
 {
     (void)worker;
-    const struct look *look = context;
-    const struct sim *sim = look->sim;
-    const struct contact *c = sim->contact;
+    struct sieve sieve;
+    begin_look(&sieve, context);
+    const struct contact *c = sieve.look->sim->contact;
     const uint32_t begin = (uint32_t)index * PAIRS_AT_ONCE,
                    end = begin + PAIRS_AT_ONCE < c->pair_count ? begin + PAIRS_AT_ONCE : c->pair_count;
+    uint32_t kept[PAIRS_AT_ONCE], count = 0;
     for (uint32_t i = begin; i < end; i++) {
-        struct approach a;
-        uint32_t p[4];
-        if (((double)c->pairs[i].distance - look->gone * (double)c->pairs[i].approach) * look->growth >
-            look->far)
-            continue;
-        contact_points(sim, &c->pairs[i], p);
-        if (!(c->stirred[p[0]] | c->stirred[p[1]] | c->stirred[p[2]] | c->stirred[p[3]]))
-            continue;
-        if (look->zones && c->zone[p[0]] == c->zone[p[1]] && c->zone[p[0]] == c->zone[p[2]] &&
-            c->zone[p[0]] == c->zone[p[3]])
-            continue;
-        if (approaches(sim, &c->pairs[i], &a))
-            c->hits[__atomic_fetch_add(look->hit_count, 1, __ATOMIC_RELAXED)] = i;
+        kept[count] = i;
+        count += may_touch(sieve.look, &c->pairs[i]);
     }
+    for (uint32_t i = 0; i < count; i++)
+        take_in(&sieve, kept[i]);
+    end_look(&sieve);
+}
+
+/* Each pair by the first of its points that have moved. */
+static void look_at_links(void *context, size_t index, unsigned worker)
+{
+    (void)worker;
+    struct sieve sieve;
+    begin_look(&sieve, context);
+    const struct contact *c = sieve.look->sim->contact;
+    const uint32_t begin = (uint32_t)index * POINTS_AT_ONCE,
+                   end = begin + POINTS_AT_ONCE < c->moved_count ? begin + POINTS_AT_ONCE : c->moved_count;
+    for (uint32_t i = begin; i < end; i++)
+        for (uint32_t at = c->first[c->moved[i]]; at != UINT32_MAX; at = c->next[at / 4][at % 4]) {
+            const uint32_t *p = c->pairs[at / 4].point;
+            bool first = true;
+            for (uint32_t k = 0; k < at % 4; k++)
+                first &= !c->stirred[p[k]];
+            if (first && may_touch(sieve.look, &c->pairs[at / 4]))
+                take_in(&sieve, at / 4);
+        }
+    end_look(&sieve);
 }
 
 static bool is_before(const struct contact_pair *x, const struct contact_pair *y)
 {
     if (x->kind != y->kind)
         return x->kind < y->kind;
-    return x->a != y->a ? x->a < y->a : x->b < y->b;
+    int k = 0;
+    while (k < 3 && x->point[k] == y->point[k])
+        k++;
+    return x->point[k] < y->point[k];
 }
 
 static void sift(const struct contact_pair *pairs, uint32_t *hits, uint32_t root, uint32_t count)
@@ -86,7 +180,7 @@ static void sift(const struct contact_pair *pairs, uint32_t *hits, uint32_t root
     }
 }
 
-/* Heapsort: in place, and no two pairs are equal. */
+/* Heapsort: in place. */
 static void sort_hits(struct contact *c)
 {
     for (uint32_t i = c->hit_count / 2; i-- > 0;)
@@ -99,20 +193,40 @@ static void sort_hits(struct contact *c)
     }
 }
 
-bool contact_look(struct sim *sim, bool zones)
+/* What was found twice (contact_tree_pairs_opened()) is one. */
+static void drop_equal_hits(struct contact *c)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < c->hit_count; i++)
+        if (i == 0 || is_before(&c->pairs[c->hits[count - 1]], &c->pairs[c->hits[i]]))
+            c->hits[count++] = c->hits[i];
+    c->hit_count = count;
+}
+
+static bool look(struct sim *sim, bool zones, size_t count,
+                 void (*function)(void *context, size_t index, unsigned worker))
 {
     struct contact *c = sim->contact;
-    c->hit_count = 0;
-    const struct contact_drift *a = &c->memory.began, *b = &c->now;
     struct look look = {sim,
                         zones,
-                        &c->hit_count,
-                        fmin(a->growth, b->growth),
-                        contact_list_gone(sim),
-                        2 * fmax(a->stray, b->stray) + c->thickness / 2};
-    threads_run(sim->pool, (c->pair_count + PAIRS_AT_ONCE - 1) / PAIRS_AT_ONCE, look_at, &look);
+                        fmin(1, fmin(c->memory.began.growth, c->motion.growth)),
+                        {contact_list_gone_before(sim), contact_list_gone(sim)}};
+    c->hit_count = 0;
+    threads_run(sim->pool, count, function, &look);
     sort_hits(c);
+    drop_equal_hits(c);
     return c->hit_count > 0;
+}
+
+bool contact_look(struct sim *sim)
+{
+    return look(sim, false, (sim->contact->pair_count + PAIRS_AT_ONCE - 1) / PAIRS_AT_ONCE, look_at_some);
+}
+
+bool contact_look_at_moved(struct sim *sim, bool zones)
+{
+    contact_pairs_link(sim);
+    return look(sim, zones, (sim->contact->moved_count + POINTS_AT_ONCE - 1) / POINTS_AT_ONCE, look_at_links);
 }
 
 static double inverse_mass(const struct sim *sim, uint32_t p)
@@ -190,17 +304,32 @@ static void push(struct sim *sim, const struct approach *a)
     }
 }
 
-void contact_push(struct sim *sim)
+void contact_rest(struct contact *c)
+{
+    for (uint32_t i = 0; i < c->moved_count; i++)
+        c->stirred[c->moved[i]] = 0;
+    c->moved_count = 0;
+}
+
+void contact_move(struct contact *c, uint32_t point)
+{
+    if (!c->stirred[point])
+        c->moved[c->moved_count++] = point;
+    c->stirred[point] = 1;
+}
+
+/* Takes the approach from each pair that a look has found. */
+static void push_all(struct sim *sim)
 {
     struct contact *c = sim->contact;
-    memset(c->stirred, 0, sim->point_count);
+    contact_rest(c);
     for (uint32_t i = 0; i < c->hit_count; i++) {
         struct approach a;
         if (!approaches(sim, &c->pairs[c->hits[i]], &a)) /* an earlier push was enough */
             continue;
         push(sim, &a);
         for (int k = 0; k < 4; k++)
-            c->stirred[a.p[k]] = 1;
+            contact_move(c, a.p[k]);
     }
 }
 
@@ -218,48 +347,45 @@ static void note_awake(struct sim *sim)
     memory->is_awake = awake;
 }
 
-/* The list, for the ways as they now are. */
-static enum status renew(struct sim *sim, struct error *err)
+/* Pushing ends at nothing that stands in the way. */
+static void turn_moved(struct sim *sim)
 {
     struct contact *c = sim->contact;
-    if (!contact_list_holds(sim))
-        return contact_list_make(sim, err);
-    return c->listed == c->memory.made ? STATUS_OK : contact_list_find(sim, err);
+    for (uint32_t i = 0; sim->obstacles && i < c->moved_count; i++) {
+        const uint32_t p = c->moved[i];
+        obstacles_turn(sim->obstacles, sim->before[p], sim->position[p], sim->velocity[p]);
+    }
 }
 
-/* Pushing ends at nothing that stands in the way. */
-static void turn_stirred(struct sim *sim)
+static enum status keep_apart(struct sim *sim, struct error *err)
 {
     struct contact *c = sim->contact;
-    for (uint32_t p = 0; sim->obstacles && p < sim->point_count; p++)
-        if (c->stirred[p])
-            obstacles_turn(sim->obstacles, sim->before[p], sim->position[p], sim->velocity[p]);
+    enum status status = STATUS_OK;
+    memset(c->held, 0, sim->point_count);
+    pins_mark(sim, c->held);
+    bool hits = contact_look(sim);
+    for (int round = 0; hits && round < ROUNDS_MAX && !status; round++) {
+        sim->changed = true;
+        push_all(sim);
+        turn_moved(sim);
+        status = contact_list_follow_moved(sim, err);
+        hits = contact_look_at_moved(sim, false);
+    }
+    return hits && !status ? contact_freeze(sim, err) : status;
 }
 
 enum status contact_settle(struct sim *sim, struct error *err)
 {
     struct contact *c = sim->contact;
     sim->changed |= sim->obstacles && obstacles_settle(sim);
-    enum status status = renew(sim, err);
+    enum status status = contact_list_follow(sim, err);
     if (status)
         return status;
     note_awake(sim);
-    if (c->pair_count > 0) {
-        memset(c->stirred, 1, sim->point_count);
-        memset(c->held, 0, sim->point_count);
-        pins_mark(sim, c->held);
-    }
-    bool hits = c->pair_count > 0 && contact_look(sim, false);
-    for (int round = 0; hits && round < ROUNDS_MAX && !status; round++) {
-        sim->changed = true;
-        contact_push(sim);
-        turn_stirred(sim);
-        status = renew(sim, err);
-        hits = contact_look(sim, false);
-    }
-    if (hits && !status)
-        status = contact_freeze(sim, err);
-    c->memory.began = c->now;
+    if (c->pair_count > 0)
+        status = keep_apart(sim, err);
+    c->memory.began = c->motion;
+    c->memory.stray = c->stray;
     c->memory.used = c->used;
     return status;
 }

@@ -3,7 +3,8 @@
  *
  *     if (contact_tree_open(&tree, sim, err)) ...        once: triangles that are near at rest stay near in the tree
  *     contact_tree_fit(&tree, sim, &ways);               boxes around the ways
- *     contact_tree_pairs(&tree, sim, take, context);     every two triangles whose boxes meet
+ *     contact_tree_share(&tree, sim);                    which leaf stands for a point or an edge
+ *     contact_tree_pairs(&tree, sim, take, context);     every two leaves whose boxes meet
  *     contact_tree_close(&tree);
  *
  * Neighbours in one sheet always have boxes that meet. So a connected patch whose triangles all look to one side of some direction, all the
@@ -20,24 +21,44 @@
 
 enum { CONTACT_JOBS = 4096 }; /* that a search is divided into at the most */
 
+/* What a leaf stands for, so that nothing is looked at twice: points and edges of its triangles, each in one leaf, with the edges' boxes. */
+struct contact_leaf {
+    uint32_t point_begin, point_end; /* of tree->leaf_point */
+    uint32_t edge_begin, edge_end;   /* of tree->leaf_edge */
+};
+
 /* Of each node the left child is the next one. */
 struct contact_node {
     struct contact_box box;
     uint32_t right;      /* child; 0: a leaf */
     uint32_t begin, end; /* of tree->order */
     uint32_t next;       /* behind the last node below this one */
+    uint32_t parent;     /* itself: a root */
     uint32_t sides;      /* a bit for each direction that all its triangles look to */
     uint32_t connected;  /* 1: in one piece when it was made */
+    uint32_t number;     /* of a leaf */
 };
+
+enum {
+    CONTACT_LEAF = 5,
+    CONTACT_BESIDE = 3 * CONTACT_LEAF
+}; /* triangles in a leaf at the most; sides that they have */
 
 struct contact_tree {
     struct contact_node *nodes; /* [node_count] owned */
-    uint32_t node_count;
-    uint32_t *order;           /* [triangle_count] triangles as the leaves list them; owned */
-    uint32_t *root;            /* [balloon_count] owned */
-    struct contact_box *box;   /* [triangle_count] owned */
-    struct contact_box *point; /* [point_count] of each point's way; owned */
-    struct contact_job *jobs;  /* [CONTACT_JOBS] two nodes, or one with itself; owned */
+    uint32_t node_count, leaf_count;
+    uint32_t *order; /* [triangle_count] triangles as the leaves list them; owned */
+    uint32_t *leaf;  /* [triangle_count] the node that lists it; owned */
+    uint32_t (*beside)
+        [CONTACT_BESIDE]; /* [leaves] nodes of leaves across their triangles' sides, the others itself; owned */
+    uint32_t *root;       /* [balloon_count] owned */
+    struct contact_leaf *leaves;             /* [leaf_count] owned */
+    uint32_t *leaf_point, *leaf_edge;        /* [point_count], [edge_count] owned */
+    struct contact_box *edge_box;            /* [edge_count] in leaf_edge's order; owned */
+    unsigned char *point_taken, *edge_taken; /* [point_count], [edge_count] for finding that; owned */
+    struct contact_box *box;                 /* [triangle_count] of the triangles, in order's order; owned */
+    struct contact_box *point;               /* [point_count] of each point's way; owned */
+    struct contact_job *jobs;                /* [CONTACT_JOBS] two nodes, or one with itself; owned */
     uint32_t job_count;
     uint32_t *fit; /* [fit_count] nodes that are fitted on their own, with all below; owned */
     uint32_t fit_count;
@@ -47,10 +68,11 @@ struct contact_job {
     uint32_t a, b;
 };
 
-/* Where the points go, how far they may stray from that at its end, and how much room is wanted around it. */
+/* Where the points go, how far each may stray from that, and how much room is wanted around it. */
 struct contact_ways {
     double (*from)[4], (*to)[4]; /* [point_count] */
-    double stray, room;
+    const float *reach;          /* [point_count]; NULL: not at all */
+    double room;
 };
 
 /* Errors: STATUS_NO_MEMORY; close it all the same. */
@@ -59,8 +81,23 @@ void contact_tree_close(struct contact_tree *tree);
 
 void contact_tree_fit(struct contact_tree *tree, struct sim *sim, const struct contact_ways *ways);
 
-/* Calls take for each two triangles whose boxes meet, t < u, on any worker and in any order. Triangles that are not active are in none. */
+/* Finds anew what the leaves stand for, of the triangles that are active; before the first contact_tree_fit(), and when sim->broken has changed. */
+void contact_tree_share(struct contact_tree *tree, const struct sim *sim);
+
+/* Calls take for each two leaves, and each with itself, whose boxes meet and that are not of one patch, on any worker and in any order. */
 void contact_tree_pairs(struct contact_tree *tree, struct sim *sim,
-                        void (*take)(void *context, uint32_t t, uint32_t u), void *context);
+                        void (*take)(void *context, unsigned worker, uint32_t a, uint32_t b), void *context);
+
+/* For ways that have changed of a few points, with the triangles around these: boxes only grow until contact_tree_fit() comes again. False where that is
+ * better, since there are too many patches that no longer look to one side. Then the pairs that come to them with those patches,
+ * some of which are known; and for each point, which can be done by several workers at once, the leaves whose boxes meet a box. */
+bool contact_tree_refit(struct contact_tree *tree, struct sim *sim, const struct contact_ways *ways,
+                        const uint32_t *points, uint32_t point_count, const uint32_t *triangles,
+                        uint32_t triangle_count);
+void contact_tree_pairs_opened(struct contact_tree *tree, struct sim *sim,
+                               void (*take)(void *context, unsigned worker, uint32_t a, uint32_t b),
+                               void *context);
+void contact_tree_near(const struct contact_tree *tree, const struct contact_box *box,
+                       void (*take)(void *context, uint32_t leaf), void *context);
 
 #endif

@@ -15,8 +15,7 @@ static void join_hits(struct sim *sim)
 {
     struct contact *c = sim->contact;
     for (uint32_t i = 0; i < c->hit_count; i++) {
-        uint32_t p[4];
-        contact_points(sim, &c->pairs[c->hits[i]], p);
+        const uint32_t *p = c->pairs[c->hits[i]].point;
         for (int k = 1; k < 4; k++) {
             const uint32_t a = find(c->zone, p[0]), b = find(c->zone, p[k]);
             c->zone[a > b ? a : b] = a > b ? b : a;
@@ -59,7 +58,7 @@ static void hold(struct sim *sim)
 static void drift(struct sim *sim)
 {
     struct contact *c = sim->contact;
-    memset(c->stirred, 0, sim->point_count);
+    contact_rest(c);
     for (uint32_t p = 0; p < sim->point_count; p++) {
         const double *sum = c->drift[c->zone[p]];
         if (sum[7] == 0)
@@ -69,7 +68,7 @@ static void drift(struct sim *sim)
             sim->position[p][i] = sim->before[p][i] + sum[i] / sum[3];
             sim->velocity[p][i] = held ? 0 : sum[i + 4] / sum[3];
         }
-        c->stirred[p] = 1;
+        contact_move(c, p);
     }
 }
 
@@ -86,9 +85,8 @@ enum status contact_freeze(struct sim *sim, struct error *err)
         add_up(sim);
         hold(sim);
         drift(sim);
-        if (!contact_list_holds(sim))
-            status = contact_list_make(sim, err);
-        hits = !status && contact_look(sim, true);
+        status = contact_list_follow_moved(sim, err);
+        hits = !status && contact_look_at_moved(sim, true);
     }
     return status;
 }

@@ -1,4 +1,5 @@
 /* The scene's block `contact` (contact.h): what it keeps, and where it begins. */
+#include "common/threads.h"
 #include "common/vec3.h"
 #include "sim/contact.h"
 #include "sim/effects.h"
@@ -12,6 +13,20 @@ static bool wanted(const struct scene *scene)
     return scene->contact.on;
 }
 
+extern const struct contact_kernels contact_plain;
+#ifdef SIM_HAS_AVX2
+extern const struct contact_kernels contact_avx2;
+#endif
+
+static const struct contact_kernels *find_kernels(void)
+{
+#ifdef SIM_HAS_AVX2
+    if (__builtin_cpu_supports("avx2"))
+        return &contact_avx2;
+#endif
+    return &contact_plain;
+}
+
 static double least_edge(const struct sim *sim)
 {
     double least = INFINITY;
@@ -22,24 +37,34 @@ static double least_edge(const struct sim *sim)
 
 static bool allocate(struct sim *sim, struct contact *c)
 {
-    enum { PAIRS_A_TRIANGLE = 24 };
+    enum { PAIRS_A_TRIANGLE = 16 };
     const size_t points = sim->point_count, triangles = sim->triangle_count;
-    const size_t pairs = PAIRS_A_TRIANGLE * triangles + 4096;
-    c->pair_capacity = pairs < UINT32_MAX ? (uint32_t)pairs : UINT32_MAX;
+    const size_t pairs = PAIRS_A_TRIANGLE * triangles + 4096, most = UINT32_MAX / 4;
+    c->pair_capacity = pairs < most ? (uint32_t)pairs : (uint32_t)most;
     c->from = sim_table(sim, points, sizeof *c->from);
     c->to = sim_table(sim, points, sizeof *c->to);
-    c->owned = sim_table(sim, triangles, 1);
-    c->point_taken = sim_table(sim, points, 1);
-    c->edge_taken = sim_table(sim, sim->edge_count, 1);
+    c->reach = sim_table(sim, points, sizeof *c->reach);
+    c->strayed = sim_table(sim, points, sizeof *c->strayed);
+    c->speed = sim_table(sim, points, sizeof *c->speed);
+    c->star_end = sim_table(sim, points, sizeof *c->star_end);
+    c->star = sim_table(sim, 3 * triangles, sizeof *c->star);
+    c->taken = sim_table(sim, threads_workers(sim->pool), sizeof *c->taken);
     c->pairs = sim_table(sim, c->pair_capacity, sizeof *c->pairs);
+    c->first = sim_table(sim, points, sizeof *c->first);
+    c->next = sim_table(sim, c->pair_capacity, sizeof *c->next);
     c->hits = sim_table(sim, c->pair_capacity, sizeof *c->hits);
-    c->held = sim_table(sim, points, 1);
+    c->moved = sim_table(sim, points, sizeof *c->moved);
+    c->again = sim_table(sim, points, sizeof *c->again);
+    c->around = sim_table(sim, triangles, sizeof *c->around);
     c->stirred = sim_table(sim, points, 1);
+    c->marked = sim_table(sim, points, 1);
+    c->held = sim_table(sim, points, 1);
     c->zone = sim_table(sim, points, sizeof *c->zone);
     c->drift = sim_table(sim, points, sizeof *c->drift);
-    c->strayed = sim_table(sim, sim->part_count, sizeof *c->strayed);
-    return c->from && c->to && c->owned && c->point_taken && c->edge_taken && c->pairs && c->hits &&
-           c->held && c->stirred && c->zone && c->drift && c->strayed;
+    c->share = sim_table(sim, sim->part_count, sizeof *c->share);
+    return c->from && c->to && c->reach && c->strayed && c->speed && c->star_end && c->star && c->taken &&
+           c->pairs && c->first && c->next && c->hits && c->moved && c->again && c->around && c->stirred &&
+           c->marked && c->held && c->zone && c->drift && c->share;
 }
 
 /* Whether the edge a b passes through the triangle: its ends on two sides, and its line between the corners. */
@@ -69,9 +94,8 @@ struct crossings {
     uint32_t found;
 };
 
-static void cross(void *context, uint32_t t, uint32_t u)
+static void cross(struct crossings *crossings, uint32_t t, uint32_t u)
 {
-    struct crossings *crossings = context;
     const struct sim *sim = crossings->sim;
     const uint32_t both[2] = {t, u};
     for (int i = 0; i < 2; i++)
@@ -89,6 +113,18 @@ static void cross(void *context, uint32_t t, uint32_t u)
         }
 }
 
+static void cross_leaves(void *context, unsigned worker, uint32_t a, uint32_t b)
+{
+    (void)worker;
+    struct crossings *crossings = context;
+    const struct contact_tree *tree = &crossings->sim->contact->tree;
+    const struct contact_node *first = &tree->nodes[a], *second = &tree->nodes[b];
+    for (uint32_t i = first->begin; i < first->end; i++)
+        for (uint32_t j = a == b ? i + 1 : second->begin; j < second->end; j++)
+            if (contact_boxes_meet(&tree->box[i], &tree->box[j]))
+                cross(crossings, tree->order[i], tree->order[j]);
+}
+
 static size_t balloon_of(const struct sim *sim, uint32_t triangle)
 {
     size_t b = 0;
@@ -102,8 +138,9 @@ static enum status check_apart(struct sim *sim, struct error *err)
 {
     struct contact *c = sim->contact;
     struct crossings crossings = {.sim = sim};
-    contact_tree_fit(&c->tree, sim, &(struct contact_ways){sim->position, sim->position, 0, 0});
-    contact_tree_pairs(&c->tree, sim, cross, &crossings);
+    contact_tree_share(&c->tree, sim);
+    contact_tree_fit(&c->tree, sim, &(struct contact_ways){sim->position, sim->position, NULL, 0});
+    contact_tree_pairs(&c->tree, sim, cross_leaves, &crossings);
     if (crossings.found == 0)
         return STATUS_OK;
     const double *x = sim->position[sim->triangle_point[crossings.t][0]];
@@ -126,7 +163,8 @@ static enum status open(struct sim *sim, struct sim_balloon *balloon, struct err
     const struct scene_contact *given = &sim->scene->contact;
     c->thickness = given->thickness > 0 ? given->thickness : least_edge(sim) / 10;
     c->friction = given->friction;
-    c->owned_broken = UINT32_MAX;
+    c->kernels = find_kernels();
+    c->shared_broken = UINT32_MAX;
     if (!allocate(sim, c))
         return error_no_memory(err, "contact");
     enum status status = sim_keep_before(sim, err);
@@ -147,8 +185,9 @@ static void close(struct sim *sim, struct sim_balloon *balloon)
     if (!c)
         return;
     contact_tree_close(&c->tree);
-    void *tables[] = {c->held,  c->from, c->to,      c->owned, c->point_taken, c->edge_taken,
-                      c->pairs, c->hits, c->stirred, c->zone,  c->drift,       c->strayed};
+    void *tables[] = {c->from,   c->to,      c->reach,  c->strayed, c->speed, c->star_end, c->star,
+                      c->taken,  c->pairs,   c->first,  c->next,    c->hits,  c->moved,    c->again,
+                      c->around, c->stirred, c->marked, c->held,    c->zone,  c->drift,    c->share};
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++)
         free(tables[i]);
     free(c);
@@ -163,7 +202,10 @@ static size_t blocks(struct sim *sim, struct sim_balloon *balloon, struct sim_bl
     list[0] = (struct sim_block){"contact", &c->memory, sizeof c->memory};
     list[1] = (struct sim_block){"contact from", c->from, rows};
     list[2] = (struct sim_block){"contact to", c->to, rows};
-    return 3;
+    list[3] = (struct sim_block){"contact reach", c->reach, sim->point_count * sizeof *c->reach};
+    list[4] = (struct sim_block){"contact strayed", c->strayed, sim->point_count * sizeof *c->strayed};
+    list[5] = (struct sim_block){"contact speed", c->speed, sim->point_count * sizeof *c->speed};
+    return 6;
 }
 
 static enum status settle(struct sim *sim, struct error *err)

@@ -1,9 +1,10 @@
-/* What obstacles, needles and contact add to a step of an icosphere of 20,480 triangles over springs and constant pressure, on one core: while
- * nothing is near, and stage by stage while the balloon is sucked empty and folds. bench_contact */
+/* What obstacles, needles and contact cost an icosphere of 20,480 triangles, in steps of springs and constant pressure alone: while nothing is near, and
+ * stage by stage while the balloon is sucked empty and folds; on one thread and on two, which come to the same states. bench_contact */
 #include "sim/contact.h"
 #include "support/bench.h"
 #include "support/shapes.h"
 
+#include <inttypes.h>
 #include <math.h>
 
 struct setting {
@@ -19,46 +20,56 @@ static void stir(struct sim *sim)
             sim->velocity[p][i] = 3 * sin(sim->position[p][(i + 1) % 3] / 8 + i);
 }
 
-static void bench(const struct setting *s, const struct mesh *mesh)
+/* Returns what a step of the first row took. */
+static double bench(const struct setting *s, const struct mesh *mesh, unsigned workers, double springs)
 {
     struct scene scene = {0};
     struct sim sim = {0};
     struct error err = {0};
     const char *changes[] = {"time.guard=off",        "time.step=0.01", "balloons[0].threshold=100",
                              "balloons[0].damping=2", s->pressure,      s->change};
+    double first = 0;
     bench_check(scene_from_mesh("sphere", &scene, &err), &err);
     for (size_t i = 0; i < sizeof changes / sizeof changes[0] && changes[i]; i++)
         bench_check(scene_set(&scene, changes[i], &err), &err);
     bench_check(scene_check(&scene, &err), &err);
-    bench_check(sim_open(&sim, &scene, mesh, 1, &err), &err);
+    bench_check(sim_open(&sim, &scene, mesh, workers, &err), &err);
     stir(&sim);
     for (int row = 0; row < s->rows; row++) {
         const double began = bench_thread_seconds();
         for (int i = 0; i < s->steps; i++)
             bench_check(sim_step(&sim, &err), &err);
         const double each = (bench_thread_seconds() - began) / s->steps;
-        printf("%-11s %5.2f s  %9.0f us  %7u pairs\n", s->name, sim.time, 1e6 * each,
-               sim.contact ? sim.contact->pair_count : 0);
+        first = row == 0 ? each : first;
+        printf("%-11s %7u %5.2f s %9.0f us %6.1f %9u   %016" PRIx64 "\n", s->name, workers, sim.time,
+               1e6 * each, each / (springs > 0 ? springs : first), sim.contact ? sim.contact->pair_count : 0,
+               sim_hash(&sim));
     }
     sim_clear(&sim);
     scene_clear(&scene);
+    return first;
 }
 
 int main(void)
 {
     static const struct setting settings[] = {
-        {"springs", NULL, "balloons[0].pressure=3", 100, 4},
-        {"ground", "ground.height=-200", "balloons[0].pressure=3", 100, 4},
-        {"needle", "needles[0].from=[500,0,0]", "balloons[0].pressure=3", 100, 4},
+        {"springs", NULL, "balloons[0].pressure=3", 100, 2},
+        {"ground", "ground.height=-200", "balloons[0].pressure=3", 100, 2},
+        {"needle", "needles[0].from=[500,0,0]", "balloons[0].pressure=3", 100, 2},
         {"contact", "contact.thickness=0.15", "balloons[0].pressure=3", 100, 4},
         {"folding", NULL, "balloons[0].pressure=-1", 25, 2},
         {"folding, c.", "contact.thickness=0.15", "balloons[0].pressure=-1", 25, 8},
     };
     struct mesh mesh = {0};
     shape_icosphere(5, &mesh);
-    printf("scene        until    us a step            near\n");
-    for (size_t i = 0; i < sizeof settings / sizeof settings[0]; i++)
-        bench(&settings[i], &mesh);
+    printf("scene       threads   until       a step springs pairs near   state\n");
+    for (unsigned workers = 1; workers <= 2; workers++) {
+        double springs = 0; /* a step of them */
+        for (size_t i = 0; i < sizeof settings / sizeof settings[0]; i++) {
+            const double first = bench(&settings[i], &mesh, workers, springs);
+            springs = i == 0 ? first : springs;
+        }
+    }
     mesh_clear(&mesh);
     return 0;
 }

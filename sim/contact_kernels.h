@@ -1,0 +1,25 @@
+/* The inner loop of contact: how far pairs are apart, four at a time, once for each set of instructions. */
+#ifndef SIM_CONTACT_KERNELS_H
+#define SIM_CONTACT_KERNELS_H
+
+#include "sim/ccd.h"
+
+#include <stdint.h>
+
+/* Pairs of one kind whose points go straight from some places to others. */
+struct contact_flock {
+    enum ccd_kind kind;
+    double (*from)[4], (*to)[4]; /* [point_count] */
+    double gone;                 /* the first places are so far on the way from `from` to `to` */
+};
+
+struct contact_kernels {
+    /*
+     * apart[i][0] and [1] become how far pair i is apart at the first places and at the last, along the direction in which its features are nearest at the
+     * first (ccd_apart()), to rounding: on the way they are never nearer than what lies in between. points has room for a multiple of four; so has apart.
+     */
+    void (*apart)(const struct contact_flock *flock, uint32_t (*points)[4], uint32_t count,
+                  double (*apart)[2]);
+};
+
+#endif
