@@ -152,6 +152,13 @@ static void a_shell_is_hollow(void **state)
     mesh_clear(&mesh);
 }
 
+static void turn_over(uint32_t triangle[3])
+{
+    const uint32_t first = triangle[0];
+    triangle[0] = triangle[2];
+    triangle[2] = first;
+}
+
 static void a_mesh_turned_inside_out_is_turned_back(void **state)
 {
     (void)state;
@@ -159,11 +166,8 @@ static void a_mesh_turned_inside_out_is_turned_back(void **state)
     struct octree tree = {0};
     struct voxelise_report report;
     struct mesh mesh = ball(4, 0);
-    for (uint32_t t = 0; t < mesh.triangle_count; t++) {
-        uint32_t swap = mesh.triangle[t][0];
-        mesh.triangle[t][0] = mesh.triangle[t][2];
-        mesh.triangle[t][2] = swap;
-    }
+    for (uint32_t t = 0; t < mesh.triangle_count; t++)
+        turn_over(mesh.triangle[t]);
     assert_ok(make(&mesh, &tree, &report, &err), &err);
     assert_ball(&tree, 1e-3);
     octree_clear(&tree);
@@ -179,11 +183,8 @@ static void triangles_turned_at_random_are_counted_without_sense(void **state)
     struct mesh mesh = ball(4, 0);
     uint64_t seed = 8;
     for (uint32_t t = 0; t < mesh.triangle_count; t++)
-        if (random_bits(&seed) & 1) {
-            uint32_t swap = mesh.triangle[t][0];
-            mesh.triangle[t][0] = mesh.triangle[t][2];
-            mesh.triangle[t][2] = swap;
-        }
+        if (random_bits(&seed) & 1)
+            turn_over(mesh.triangle[t]);
     assert_ok(make(&mesh, &tree, &report, &err), &err);
     assert_ball(&tree, 1e-3);
     octree_clear(&tree);
