@@ -58,12 +58,20 @@ static inline double gas_gauge_pressure(struct sim *sim, const struct sim_balloo
  * sim->scalar. */
 void gas_stream(struct sim *sim, const struct sim_balloon *balloon, double rate, double warmth);
 
-/* What drives tubes, by the last sim_forces(): pressure, mass over volume, temperature over that of the air; and the most of N that may flow out a second so that
- * an explicit step does not overshoot where pressures are nearly even. */
+/* What drives tubes. */
 struct gas_drive {
-    double pressure, density, warmth, amount_of_mass; /* the last: N over mass */
-    double to_even;                                   /* of N a second, times the pressure difference */
+    double pressure, density,
+        warmth;            /* density: mass over volume; warmth: the temperature over that of the air */
+    double amount_of_mass; /* N over mass */
+    double
+        capacity; /* by how much more N the pressure rises by one, at the same volume; INFINITY: into the air */
+    double
+        to_even; /* the most of N that may flow out a second, times the pressure difference, so that an explicit step does not overshoot where pressures are
+                      * nearly even */
 };
+
+/* By the last sim_forces(); and as the guard's bound took it. */
 struct gas_drive gas_drive(const struct sim *sim, const struct sim_balloon *balloon);
+struct gas_drive gas_drive_in_bound(const struct sim *sim, const struct sim_balloon *balloon);
 
 #endif

@@ -1,34 +1,87 @@
-/* A tube between the gas of two balloons: what flows is what an opening of its area lets through from the higher pressure to the lower
- * (gas_law.h); what leaves one arrives at the other, to the bit. */
+/*
+ * A tube between the gas of two balloons: what flows is what an opening of its area lets through from the higher pressure to the lower
+ * (gas_law.h); what leaves one arrives at the other, to the bit.
+ *
+ * Near even pressures that law would ask for ever shorter steps: the flow goes by the root of the difference d. There a flow is slow and laminar,
+ * and goes by d itself (Poiseuille); here from a hundredth of the larger gauge pressure downwards, or 1e-4 of the pressure. So the pressures
+ * approach each other at a finite rate, dN/dd (1/C1 + 1/C2) with C = dN/dp of each balloon, and the guard splits steps that cannot follow
+ * it. Where it may not, flow is held back so that it never turns round within a step.
+ */
 #include "sim/effect_gas.h"
 #include "sim/effects.h"
 #include "sim/gas_law.h"
+#include "sim/guard.h"
 
 static bool wanted(const struct scene_balloon *balloon)
 {
     return balloon->tube.on;
 }
 
+/* From the first to the second. */
+struct pair {
+    const struct scene_balloon *scene; /* whose tube it is */
+    const struct gas_drive *from, *into;
+    double ambient;
+};
+
+/* The difference of pressures below which flow is laminar. */
+static double laminar(const struct pair *pair)
+{
+    const double gauge = fmax(fabs(pair->from->pressure - pair->ambient),
+                              fabs(pair->into->pressure - pair->ambient));
+    return fmax(0.01 * gauge, 1e-4 * pair->from->pressure);
+}
+
+/* Of N, a second. */
+static double flow(const struct pair *pair, double difference)
+{
+    const struct scene_tube *tube = &pair->scene->tube;
+    const double turbulent = fmax(difference, laminar(pair));
+    const struct gas_jet jet = gas_jet(pair->from->pressure, pair->from->density,
+                                       pair->from->pressure - turbulent, pair->scene->gas.gamma,
+                                       tube->discharge);
+    return jet.flux * tube->area * pair->from->amount_of_mass * (difference / turbulent);
+}
+
+/* Both change: half of what would even one of them out alone, of the smaller. Methods that choose their own steps see to that by themselves. */
+static double most_in_a_step(const struct sim *sim, const struct pair *pair, double difference)
+{
+    const double capacity = fmin(pair->from->capacity, pair->into->capacity);
+    return sim->integrator->flags & INTEGRATOR_ADAPTIVE ? INFINITY : capacity / (4 * sim->step) * difference;
+}
+
 static void apply(struct sim *sim, struct sim_balloon *b)
 {
-    const struct scene_tube *tube = &b->scene->tube;
-    struct sim_balloon *to = &sim->balloons[tube->to];
-    struct gas_drive here = gas_drive(sim, b), there = gas_drive(sim, to);
-    const double sign = here.pressure > there.pressure ? 1 : -1;
-    const struct gas_drive *from = sign > 0 ? &here : &there, *into = sign > 0 ? &there : &here;
-    if (!(from->pressure > into->pressure) || !(from->density > 0))
+    struct sim_balloon *to = &sim->balloons[b->scene->tube.to];
+    const struct gas_drive here = gas_drive(sim, b), there = gas_drive(sim, to);
+    const bool out = here.pressure > there.pressure;
+    const struct pair pair = {b->scene, out ? &here : &there, out ? &there : &here, b->scene->gas.ambient};
+    const double difference = pair.from->pressure - pair.into->pressure;
+    if (!(difference > 0) || !(pair.from->density > 0))
         return;
-    const struct gas_jet jet = gas_jet(from->pressure, from->density, into->pressure, b->scene->gas.gamma,
-                                       tube->discharge);
-    /* both change: half of what would even one of them out alone, of the smaller */
-    const double most = fmin(here.to_even, there.to_even) / 2 * (from->pressure - into->pressure);
-    const double rate = fmin(jet.flux * tube->area * from->amount_of_mass, most);
-    gas_stream(sim, b, -sign * rate, from->warmth);
-    gas_stream(sim, to, sign * rate, from->warmth);
+    const double rate = fmin(flow(&pair, difference), most_in_a_step(sim, &pair, difference));
+    gas_stream(sim, b, out ? -rate : rate, pair.from->warmth);
+    gas_stream(sim, to, out ? rate : -rate, pair.from->warmth);
+}
+
+/* Steps that hold no flow back, with half of them to spare for what changes until the gas is asked again. */
+static void bound(const struct sim *sim, const struct sim_balloon *b, const struct guard_rows *rows)
+{
+    const struct sim_balloon *to = &sim->balloons[b->scene->tube.to];
+    const struct gas_drive drive[2] = {gas_drive_in_bound(sim, b), gas_drive_in_bound(sim, to)};
+    for (int i = 0; i < 2; i++) {
+        const struct pair pair = {b->scene, &drive[i], &drive[1 - i], b->scene->gas.ambient};
+        const double difference = laminar(&pair);
+        if (drive[i].density > 0)
+            guard_follow(rows, b,
+                         fmin(drive[0].capacity, drive[1].capacity) / 8 * difference /
+                             flow(&pair, difference));
+    }
 }
 
 const struct effect effect_tube = {.name = "tube",
                                    .phase = EFFECT_FORCES,
                                    .wanted = wanted,
                                    .apply = apply,
-                                   .source = "Saint-Venant & Wantzel 1839"};
+                                   .bound = bound,
+                                   .source = "Saint-Venant & Wantzel 1839; Poiseuille 1840"};

@@ -44,6 +44,32 @@ static inline double gas_amount(const struct sim *sim, const struct gas *gas)
     return sim->scalar[gas->scalar + GAS_AMOUNT];
 }
 
+/* Over that at rest: what the pressure is taken for where there is less. */
+#define GAS_LEAST_VOLUME 1e-9
+
+/* What volumes are seen from. */
+void gas_origin(const struct sim *sim, const struct sim_balloon *balloon, double origin[4]);
+
+/* For areas.h: NULL while no piece has fallen off. */
+const unsigned char *gas_held(const struct gas *gas);
+
+/* The volume as positions have it, whatever the last forces were; finds the holes. */
+double gas_volume(const struct sim *sim, const struct sim_balloon *balloon);
+
+/* What presses on points where the gas has this pressure and volume. */
+struct areas_pressure gas_pressures(const struct sim *sim, const struct sim_balloon *balloon, double pressure,
+                                    double volume);
+
+/* The gauge pressure that the bound counts with. */
+double gas_gauge_to_bound(const struct gas *gas, double pressure);
+
+/* The hooks of struct effect of these names; power by the last sim_forces(). */
+void gas_product(struct sim *sim, struct sim_balloon *balloon, double a, double (*dx)[4], double b,
+                 double (*dv)[4], double (*df)[4]);
+void gas_bound(const struct sim *sim, const struct sim_balloon *balloon, const struct guard_rows *rows);
+double gas_held_energy(struct sim *sim, struct sim_balloon *balloon);
+void gas_power(struct sim *sim, struct sim_balloon *balloon, double *dissipated, double *work);
+
 /* Finds the holes as they are. */
 void gas_find_holes(const struct sim *sim, const struct sim_balloon *balloon);
 

@@ -201,6 +201,14 @@ void guard_describe(struct sim *sim, char *text, size_t size)
         used = snprintf(text, size, "time.step %g is split in %.0f: ", step, parts);
     else if (parts > 1)
         used = snprintf(text, size, "time.step %g is too large: ", step);
+    if (memory->cause == GUARD_TUBE) {
+        snprintf(
+            text + used, size - (size_t)used,
+            "steps up to %.3g follow what flows in the tube of balloons[%zu], which evens pressures out so fast; a "
+            "smaller tube.area would ask for less",
+            stable, b);
+        return;
+    }
     snprintf(
         text + used, size - (size_t)used,
         "steps up to %.3g are surely stable for %s; most of that is for the %s at point %u of balloons[%zu]",

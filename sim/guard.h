@@ -34,7 +34,19 @@ struct guard_rows {
     double *stiffness; /* sums of |dF/dx| over all that the force on the point depends on */
     double *damping;   /* of |dF/dv| */
     double *push;      /* the largest force that can do work on the point out of nothing, as pressure does */
+    struct guard_follow {
+        double step; /* s: the longest that follows what flows between balloons; INFINITY: any does */
+        const struct sim_balloon *balloon;
+    } * follow;
 };
+
+/* For such an effect of a balloon: a longer step cannot follow it, whatever the method. */
+static inline void guard_follow(const struct guard_rows *asked, const struct sim_balloon *balloon,
+                                double step)
+{
+    if (step < asked->follow->step)
+        *asked->follow = (struct guard_follow){step, balloon};
+}
 
 /* A step may be split in no more parts than this. */
 enum { GUARD_PARTS_MAX = 1000000 };

@@ -28,10 +28,12 @@ static double largest_step(const struct limits *l, double stiffness, double damp
     return 2 / (b + sqrt(b * b + 4 * a)); /* the positive root, in the form that does not cancel */
 }
 
-/* What acts on single points: pressure and effects. */
-static void find_rows(struct sim *sim)
+/* What acts on single points: pressure and effects. Returns what these ask of a step besides. */
+static struct guard_follow find_rows(struct sim *sim)
 {
-    const struct guard_rows rows = sim->guard->rows;
+    struct guard_follow follow = {INFINITY, NULL};
+    struct guard_rows rows = sim->guard->rows;
+    rows.follow = &follow;
     for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++) {
         const double pressure = fabs(sim_point_pressure(b)), trembling = b->mean_rest_length / 10;
         for (uint32_t p = b->point_begin; p < b->point_end; p++) {
@@ -49,6 +51,7 @@ static void find_rows(struct sim *sim)
     for (uint32_t p = 0; p < sim->point_count; p++)
         push += rows.push[p] * rows.push[p] / sim->mass[p];
     sim->guard->memory.push = sqrt(push);
+    return follow;
 }
 
 /* The unsigned Laplacians of springs and of dampers, times x. */
@@ -151,7 +154,7 @@ void guard_find_bound(struct sim *sim)
     enum { ITERATIONS_MAX = 40 };
     struct guard_memory *memory = &sim->guard->memory;
     const struct limits l = limits_of(sim);
-    find_rows(sim);
+    const struct guard_follow follow = find_rows(sim);
     memory->stable = 0;
     for (int i = 0; i < ITERATIONS_MAX; i++) {
         uint32_t point = 0;
@@ -164,6 +167,11 @@ void guard_find_bound(struct sim *sim)
         if (isinf(h) || h == 0 || (i % 4 == 3 && memory->stable < 1.002 * before))
             break;
         sharpen(sim, &l, h);
+    }
+    if (follow.step < memory->stable) {
+        memory->stable = follow.step;
+        memory->point = follow.balloon->point_begin;
+        memory->cause = GUARD_TUBE;
     }
     memory->broken = sim->broken;
     memory->is_known = 1;

@@ -4,7 +4,12 @@
 
 #include "sim/guard.h"
 
-enum guard_cause { GUARD_SPRINGS, GUARD_DAMPERS, GUARD_POINTS }; /* the last: pressure and effects */
+enum guard_cause {
+    GUARD_SPRINGS,
+    GUARD_DAMPERS,
+    GUARD_POINTS,
+    GUARD_TUBE
+}; /* points: pressure and effects */
 
 /* All arrays are [point_count] and owned. */
 struct guard {
@@ -19,7 +24,7 @@ struct guard {
         double reach;      /* the most that sqrt(2 E) can be by now */
         double least;      /* and the least that counts: rounding moves points too */
         uint64_t broken;   /* edges, when the bound was found */
-        uint32_t point;    /* where it is tightest */
+        uint32_t point;    /* where it is tightest; of a tube, the first of its balloon */
         uint32_t cause;    /* enum guard_cause: what asks for most of it there */
         uint64_t is_known; /* 1: nothing has changed since */
     } memory;

@@ -322,6 +322,29 @@ static void any_number_of_threads_gives_the_same_bits(void **state)
     assert_true(hash[0] == hash[1] && hash[0] == hash[2]);
 }
 
+/* A skin that goes in one step closes nothing, and the pressure of what it held would have no end. The books count what there was: they are never without a
+ * number, and neither are those of gas that is gone. */
+static void gas_whose_skin_goes_at_once_has_an_energy(void **state)
+{
+    (void)state;
+    for (int adiabatic = 0; adiabatic < 2; adiabatic++) {
+        struct balloon b;
+        open_balloon(&b, 1,
+                     GAS("balloons[0].gas.fill=2", adiabatic ? "balloons[0].gas.process=adiabatic"
+                                                             : "balloons[0].gas.process=isothermal"));
+        struct sim *sim = &b.sim;
+        sim_forces(sim);
+        const double before = effects_energy(sim);
+        assert_true(before > 0);
+        memset(sim->triangle_active, 0, sim->triangle_count);
+        const double after = effects_energy(sim);
+        assert_near(after, before, 1e-12 * before);
+        sim->balloons[0].gas->memory.gone = 1;
+        assert_true(effects_energy(sim) == 0);
+        close_balloon(&b);
+    }
+}
+
 /* A skin that is pushed through itself has no volume that gas could fill: the run ends, and says why. */
 static void a_volume_below_nothing_is_refused(void **state)
 {
@@ -353,6 +376,7 @@ int main(void)
         cmocka_unit_test(a_hole_lets_it_out),
         cmocka_unit_test(the_balance_of_energies_holds),
         cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
+        cmocka_unit_test(gas_whose_skin_goes_at_once_has_an_energy),
         cmocka_unit_test(a_volume_below_nothing_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

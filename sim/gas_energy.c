@@ -1,0 +1,183 @@
+/* What gas is worth (effect_gas.c): volume and pressure from positions alone, how they change with them, and the energy that is in them. */
+#include "common/vec3.h"
+#include "sim/gas.h"
+#include "sim/guard.h"
+#include "sim/vectors.h"
+
+#include <string.h>
+
+/* What volumes are seen from: the balloon's first point, so that nothing is lost of them however far it has flown. */
+void gas_origin(const struct sim *sim, const struct sim_balloon *b, double origin[4])
+{
+    memcpy(origin, sim->position[b->point_begin], 4 * sizeof *origin);
+}
+
+const unsigned char *gas_held(const struct gas *gas)
+{
+    return gas->memory.let_go ? gas->held : NULL;
+}
+
+/* The volume as positions have it, whatever the last forces were. */
+double gas_volume(const struct sim *sim, const struct sim_balloon *b)
+{
+    double origin[4];
+    gas_origin(sim, b, origin);
+    gas_find_holes(sim, b);
+    return areas_change(sim, b, origin, gas_held(b->gas), sim->velocity).volume +
+           gas_fan_volume(&b->gas->holes, origin);
+}
+
+/* At the point x: p - pa + (r - ra) g . x - r g . x0 + ra g . c, with the densities r and ra of gas and air, g gravity, x0 the first point,
+ * where the gas's pressure is p, and c the centre at rest, where the air's is pa. */
+struct areas_pressure gas_pressures(const struct sim *sim, const struct sim_balloon *b, double pressure,
+                                    double volume)
+{
+    const struct gas *gas = b->gas;
+    const double density = gas->gas_weight * gas_amount(sim, gas) / volume;
+    struct areas_pressure q = {.constant = pressure - gas->scene->ambient};
+    q.constant += gas->air_weight * vec3_dot(gas->down, b->centre) -
+                  density * vec3_dot(gas->down, sim->position[b->point_begin]);
+    for (int i = 0; i < 3; i++)
+        q.gradient[i] = (density - gas->air_weight) * gas->down[i];
+    return q;
+}
+
+/* F_i = q N_i/6, where q follows the volume: dp/dV = -g p/V, and the gas's density dr/dV = -r/V. Thrust is taken as constant: Newton's method
+ * does without. */
+void gas_product(struct sim *sim, struct sim_balloon *b, double a, double (*dx)[4], double f, double (*dv)[4],
+                 double (*df)[4])
+{
+    (void)f;
+    (void)dv;
+    const struct gas *gas = b->gas;
+    double origin[4];
+    if (a == 0 || gas->memory.gone)
+        return;
+    gas_origin(sim, b, origin);
+    gas_find_holes(sim, b);
+    const struct areas_change of = areas_change(sim, b, origin, gas_held(gas), dx);
+    const double volume = of.volume + gas_fan_volume(&gas->holes, origin),
+                 change = of.change + gas_fan_change(sim, b, dx);
+    const double p = gas_pressure(gas_amount(sim, gas), volume, sim->scalar[gas->scalar + GAS_ENTROPY],
+                                  gas->g);
+    const struct areas_pressure pressure = gas_pressures(sim, b, p, volume);
+    const double density = gas->gas_weight * gas_amount(sim, gas) / volume,
+                 thinner = density * change / volume;
+    struct areas_pressure d = {.constant = -gas->g * p / volume * change +
+                                           thinner * vec3_dot(gas->down, sim->position[b->point_begin]) -
+                                           density * vec3_dot(gas->down, dx[b->point_begin])};
+    for (int i = 0; i < 3; i++)
+        d.gradient[i] = -thinner * gas->down[i];
+    areas_product(sim, b, &pressure, &d, gas_held(gas), a, dx, df);
+}
+
+/* The gauge pressure that the bound counts with: a thousandth of the pressure at the least, so that a balloon that is filled from
+ * nothing does not ask for a new one at every step. */
+double gas_gauge_to_bound(const struct gas *gas, double pressure)
+{
+    return fmax(fabs(pressure - gas->scene->ambient), 1e-3 * pressure);
+}
+
+/* The largest pressure on any point, less the air's: where gas or air have weight it depends on the height. */
+static double largest_gauge(const struct sim *sim, const struct sim_balloon *b,
+                            const struct areas_pressure *pressure)
+{
+    double most = 0;
+    for (uint32_t p = b->point_begin; p < b->point_end; p++)
+        most = fmax(most, fabs(pressure->constant + vec3_dot(pressure->gradient, sim->position[p])));
+    return most;
+}
+
+/* The stiffness of areas, and g p/V times a point's area vector times those of all others; both for half as much again. From the state
+ * alone: what the last forces left may be that of another one. */
+void gas_bound(const struct sim *sim, const struct sim_balloon *b, const struct guard_rows *rows)
+{
+    struct gas *gas = b->gas;
+    struct gas_memory *memory = &gas->memory;
+    double all = 0;
+    if (memory->gone)
+        return;
+    memory->bound_volume = fmax(gas_volume(sim, b), GAS_LEAST_VOLUME * gas->rest_volume);
+    memory->bound_pressure = gas_pressure(gas_amount(sim, gas), memory->bound_volume,
+                                          sim->scalar[gas->scalar + GAS_ENTROPY], gas->g);
+    memory->bound_gauge = gas_gauge_to_bound(gas, memory->bound_pressure);
+    const struct areas_pressure pressure = gas_pressures(sim, b, memory->bound_pressure,
+                                                         memory->bound_volume);
+    areas_bound(sim, b, 1.5 * fmax(memory->bound_gauge, largest_gauge(sim, b, &pressure)), rows);
+    for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++)
+        all += areas_size(sim, t);
+    const double stiffness = 1.5 * (gas->g * memory->bound_pressure / memory->bound_volume * all +
+                                    vec3_length(pressure.gradient));
+    for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++)
+        for (int k = 0; k < 3; k++)
+            rows->stiffness[sim->triangle_point[t][k]] += stiffness * areas_size(sim, t) / 3;
+}
+
+/* Whoever asks leaves the holes as the last forces found them: what goes by them must not depend on the ledger. */
+double gas_held_energy(struct sim *sim, struct sim_balloon *b)
+{
+    struct gas *gas = b->gas;
+    if (gas->memory.gone)
+        return 0;
+    const struct gas_holes holes = gas->holes;
+    double volume = gas_volume(sim, b);
+    if (!(volume >
+          GAS_LEAST_VOLUME * gas->rest_volume)) /* all went in one step: it is what the last forces found */
+        volume = gas->volume;
+    gas->holes = holes;
+    return gas_energy(gas_amount(sim, gas), volume, sim->scalar[gas->scalar + GAS_ENTROPY], gas->g,
+                      gas->scene->ambient);
+}
+
+struct moving {
+    const struct sim_balloon *balloon;
+    double constant, gradient[3];
+};
+
+static double pushing_power(const struct sim *sim, uint32_t begin, uint32_t end, void *context)
+{
+    const struct moving *m = context;
+    const struct sim_balloon *b = m->balloon;
+    const unsigned char *held = gas_held(b->gas);
+    double power = 0;
+    for (uint32_t p = begin; p < end; p++)
+        if (p - b->point_begin < b->point_end - b->point_begin && (!held || held[p - b->point_begin]))
+            power += (m->constant + vec3_dot(m->gradient, sim->position[p])) / 6 *
+                     vec3_dot(sim->normal[p], sim->velocity[p]);
+    return power;
+}
+
+/* What pumps bring and what the air lifts is work; what streams out is lost, but for its thrust's work, and so is what a
+ * hole's edge does not catch of the pressure. */
+void gas_power(struct sim *sim, struct sim_balloon *b, double *dissipated, double *work)
+{
+    const struct gas *gas = b->gas;
+    if (gas->memory.gone)
+        return;
+    const double *scalar = &sim->scalar[gas->scalar], *rate = &sim->scalar_rate[gas->scalar];
+    const double streams = gas_energy_rate(scalar[GAS_AMOUNT], gas->volume, scalar[GAS_ENTROPY], gas->g,
+                                           gas->scene->ambient, rate[GAS_AMOUNT], rate[GAS_ENTROPY]);
+    const double gauge = gas->pressure - gas->scene->ambient;
+    *(streams > 0 ? work : dissipated) += fabs(streams);
+    *dissipated += gauge * gas_fan_change(sim, b, sim->velocity) - gas_thrust_power(sim, b);
+    if (gas->air_weight > 0) {
+        const struct areas_pressure q = gas_pressures(sim, b, gas->pressure, gas->volume);
+        struct moving m = {b, q.constant - gauge, {q.gradient[0], q.gradient[1], q.gradient[2]}};
+        *work += vector_sum(sim, pushing_power, &m);
+    }
+}
+
+struct gas_look gas_look(struct sim *sim, const struct sim_balloon *balloon)
+{
+    struct gas *gas = balloon->gas;
+    if (!gas)
+        return (struct gas_look){0};
+    const double *scalar = &sim->scalar[gas->scalar];
+    struct gas_look look = {
+        .volume = gas_volume(sim, balloon), .amount = scalar[GAS_AMOUNT], .brought = scalar[GAS_BROUGHT]};
+    look.hole_area = gas_openings(gas);
+    if (!gas->memory.gone)
+        look.gauge_pressure = gas_pressure(scalar[GAS_AMOUNT], look.volume, scalar[GAS_ENTROPY], gas->g) -
+                              gas->scene->ambient;
+    return look;
+}
