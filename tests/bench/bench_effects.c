@@ -34,7 +34,14 @@ static const struct row rows[] = {
     {"needle, far", "", {"needles[0].from=[500, 0, 0]"}},
     {"contact, nothing near", "10 %", {"contact.friction=0.3"}},
     {"fracture, whole skin", "", {"balloons[0].fracture.strength=100"}},
-    {"membrane for springs", "150 %", {"balloons[0].membrane.thickness=0.1"}},
+    {"neo-Hookean membrane",
+     "150 %",
+     {"balloons[0].membrane.thickness=0.1", "balloons[0].membrane.law=neo-hookean"}},
+    {"Mooney-Rivlin membrane",
+     "150 %",
+     {"balloons[0].membrane.thickness=0.1", "balloons[0].membrane.law=mooney-rivlin"}},
+    {"Gent membrane", "150 %", {"balloons[0].membrane.thickness=0.1", "balloons[0].membrane.law=gent"}},
+    {"Ogden membrane", "150 %", {"balloons[0].membrane.thickness=0.1", "balloons[0].membrane.law=ogden"}},
 };
 
 static const char *const all[] = {"balloons[0].pressure=0.001",
