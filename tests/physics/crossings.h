@@ -5,6 +5,8 @@
 #include "common/vec3.h"
 #include "sim/sim.h"
 
+#include <stdlib.h>
+
 /* Six times the signed volume of a, b, c, d. */
 static inline double crossings_volume(const double *a, const double *b, const double *c, const double *d)
 {
@@ -37,14 +39,40 @@ static inline bool crossings_of(const struct sim *sim, const uint32_t *edge, con
     return sides[0] != sides[1] && turns[0] == turns[1] && turns[1] == turns[2];
 }
 
+/* Of each triangle, from where to where it is. */
+static inline double (*crossings_extents(const struct sim *sim))[2][3]
+{
+    double(*extent)[2][3] = calloc(sim->triangle_count, sizeof *extent);
+    for (uint32_t t = 0; t < sim->triangle_count; t++)
+        for (int i = 0; i < 3; i++) {
+            const uint32_t *p = sim->triangle_point[t];
+            const double a = sim->position[p[0]][i], b = sim->position[p[1]][i], c = sim->position[p[2]][i];
+            extent[t][0][i] = fmin(fmin(a, b), c);
+            extent[t][1][i] = fmax(fmax(a, b), c);
+        }
+    return extent;
+}
+
+static inline bool crossings_apart(double a[2][3], double b[2][3])
+{
+    bool apart = false;
+    for (int i = 0; i < 3; i++)
+        apart |= a[1][i] < b[0][i] || b[1][i] < a[0][i];
+    return apart;
+}
+
 /* Edges through triangles, of skin that is still there. */
 static inline size_t crossings_count(const struct sim *sim)
 {
     size_t count = 0;
+    double(*extent)[2][3] = crossings_extents(sim);
     for (uint32_t t = 0; t < sim->triangle_count; t++)
         for (uint32_t u = 0; u < sim->triangle_count; u++)
-            for (int k = 0; k < 3 && sim->triangle_active[t] && sim->triangle_active[u]; k++)
+            for (int k = 0; k < 3 && sim->triangle_active[t] && sim->triangle_active[u] &&
+                            !crossings_apart(extent[t], extent[u]);
+                 k++)
                 count += crossings_of(sim, sim->edge_point[sim->triangle_edge[u][k]], sim->triangle_point[t]);
+    free(extent);
     return count;
 }
 
