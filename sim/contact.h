@@ -6,7 +6,8 @@
  * opposite, so that momentum is kept (Bridson, Fedkiw & Anderson, "Robust treatment of collisions, contact and friction for cloth animation",
  * SIGGRAPH 2002). That is done again and again, since a push may cause the next approach. What is still too near after many rounds goes on
  * as one, with the velocity that its momentum asks for: a rigid zone, that grows until nothing approaches any more (Provot 1997; there,
- * section 7.5).
+ * section 7.5). The two lips of a new cut begin in one place, where nothing says which is on what side: they are pushed apart towards the skin
+ * that each belongs to, and are two skins like others from then on.
  *
  * Which pairs can come near each other is known from a list (contact_list.c). It is made for some steps to come, on straight lines that the points
  * are expected to go along, and holds for a point as long as it strays no further from its line than it may, growth and motion of the

@@ -17,7 +17,44 @@ struct approach {
     struct ccd_touch touch;
 };
 
-/* False also where they were together from the start, as the two lips of a cut are: those go apart in their own time. */
+/* The middle of the skin around a point as the step begins. */
+static void middle_around(const struct sim *sim, uint32_t point, double middle[3])
+{
+    const struct contact *c = sim->contact;
+    const uint32_t begin = point ? c->star_end[point - 1] : 0;
+    double count = 0;
+    memset(middle, 0, 3 * sizeof *middle);
+    for (uint32_t s = begin; s < c->star_end[point]; s++)
+        for (int k = 0; k < 3; k++, count++)
+            for (int i = 0; i < 3; i++)
+                middle[i] += sim->before[sim->triangle_point[c->star[s]][k]][i];
+    for (int i = 0; i < 3 && count > 0; i++)
+        middle[i] /= count;
+}
+
+/* Those that begin in one place, as the two lips of a cut do, are to go apart towards where the skin of each lies. */
+static bool stays_together(const struct sim *sim, struct approach *a)
+{
+    double *n = a->touch.normal, middle[3], length;
+    memset(n, 0, 3 * sizeof *n);
+    for (int i = 0; i < 4; i++) {
+        middle_around(sim, a->p[i], middle);
+        for (int k = 0; k < 3; k++)
+            n[k] += a->touch.weight[i] * middle[k];
+    }
+    length = vec3_length(n);
+    if (!(length > 0))
+        return false;
+    double apart = 0;
+    for (int k = 0; k < 3; k++) {
+        n[k] /= length;
+        for (int i = 0; i < 4; i++)
+            apart += n[k] * a->touch.weight[i] * a->to[i][k];
+    }
+    a->touch.time = a->touch.distance = a->distance = 0;
+    return apart < sim->contact->thickness / 8;
+}
+
 static bool approaches(const struct sim *sim, const struct contact_pair *pair, struct approach *a)
 {
     const struct contact *c = sim->contact;
@@ -26,9 +63,10 @@ static bool approaches(const struct sim *sim, const struct contact_pair *pair, s
     contact_gather(sim->position, a->p, a->to);
     const enum ccd_kind kind = (enum ccd_kind)pair->kind;
     a->distance = ccd_distance(kind, a->from, &a->touch);
+    if (a->distance <= 1e-9 * c->thickness)
+        return stays_together(sim, a);
     const double gap = fmin(a->distance, c->thickness) / 2;
-    if (a->distance <= 1e-9 * c->thickness || ccd_apart(kind, &a->touch, a->to) > gap ||
-        a->distance - ccd_approach(kind, a->from, a->to) > gap)
+    if (ccd_apart(kind, &a->touch, a->to) > gap || a->distance - ccd_approach(kind, a->from, a->to) > gap)
         return false;
     return ccd_meet(kind, a->from, a->to, gap, &a->touch);
 }
