@@ -2,6 +2,7 @@
 #include "common/file.h"
 
 #include <errno.h>
+#include <malloc.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -24,6 +25,12 @@ void command_begin(const char *program)
     command_name = program;
     argp_program_version_hook = print_version;
     argp_err_exit_status = 2;
+}
+
+void command_keep_memory(void)
+{
+    mallopt(M_MMAP_THRESHOLD, 32 << 20); /* more is not possible */
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
 }
 
 void command_set_quiet(bool quiet)

@@ -17,6 +17,10 @@
 
 void command_begin(const char *program);
 
+/* Memory that is freed stays with the program: the software renderer asks for the same tens of megabytes for each picture, and to
+ * have them mapped anew takes longer than to sort its triangles. */
+void command_keep_memory(void);
+
 /* -q: notes and progress are not shown. */
 void command_set_quiet(bool quiet);
 

@@ -99,10 +99,11 @@ static void average_at_points(const struct building *b)
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
         if (!is_drawn(b->skin, t))
             continue;
+        const float film = film_of(b, t), gloss = gloss_of(b, t);
         for (int k = 0; k < 3; k++) {
             float *sum = sums + 3 * (size_t)mesh->triangle[t][k];
-            sum[0] += film_of(b, t);
-            sum[1] += gloss_of(b, t);
+            sum[0] += film;
+            sum[1] += gloss;
             sum[2] += 1;
         }
     }

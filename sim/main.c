@@ -7,7 +7,6 @@
 #include "sim/run.h"
 #include "sim/window.h"
 
-#include <malloc.h>
 #include <signal.h>
 #include <stdlib.h>
 
@@ -118,20 +117,12 @@ static enum status perform(const struct options *options, struct error *err)
     return status;
 }
 
-/* Memory that is freed stays with the program: the software renderer asks for the same tens of megabytes for each picture, and to
- * have them mapped anew takes longer than to sort its triangles. */
-static void keep_memory(void)
-{
-    mallopt(M_MMAP_THRESHOLD, 32 << 20); /* more is not possible */
-    mallopt(M_TRIM_THRESHOLD, 1 << 30);
-}
-
 int main(int argc, char **argv)
 {
     struct options options;
     struct error err = {0};
     command_begin("balloon-sim");
-    keep_memory();
+    command_keep_memory();
     signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is an error like a full disk */
     if (!options_parse(&options, argc, argv))
         return command_fail(&(struct error){.status = STATUS_NO_MEMORY});

@@ -21,9 +21,11 @@ static const double longest_scale = 6;
 
 static const double count_seconds = 0.5; /* pictures are counted over */
 
-/* Below so many frames a second outlines are drawn rough; smooth ones are tried again after this many seconds, and then after twice as
- * many, up to the most. */
-static const double slow_rate = 30, first_wait = 4, longest_wait = 64;
+/* Below so many frames a second outlines are drawn rough: the plain skin can be as quick as pictures come, one every sixtieth of a second, or nearly. */
+static const double slow_rate[] = {[RENDER_PAPER] = 55, [RENDER_LATEX] = 40};
+
+/* Smooth ones are tried again after so many seconds, and then after twice as many, up to the most. */
+static const double first_wait = 4, longest_wait = 64;
 
 double app_stretch_most(const struct app *app)
 {
@@ -187,7 +189,7 @@ static void choose_outlines(struct app *app, double now)
         return;
     if (app->rough.on && now >= app->rough.until) {
         app->rough.on = false;
-    } else if (!app->rough.on && app->frames_rate < slow_rate) {
+    } else if (!app->rough.on && app->frames_rate < slow_rate[app_drawn_view(app).style]) {
         app->rough.on = true;
         app->rough.wait = fmin(fmax(2 * app->rough.wait, first_wait), longest_wait);
         app->rough.until = now + app->rough.wait;
