@@ -1,5 +1,6 @@
-/* What frames cost: a sphere whose skin thins, drawn in each style and order, and 400 stereo frames of 3000 triangles
- * written. */
+/* What frames cost: a sphere whose skin thins, drawn in each style and order, what sorting is of it, and 400 stereo frames of 3000
+ * triangles written. */
+#include "render/cells.h"
 #include "render/frames.h"
 #include "render/render.h"
 
@@ -7,6 +8,7 @@
 #include "unit/sphere.h"
 
 #include <ftw.h>
+#include <math.h>
 #include <stdio.h>
 #include <time.h>
 #include <unistd.h>
@@ -21,6 +23,17 @@ struct scene {
     struct image image;
 };
 
+static struct render_skin skin_of(const struct scene *scene)
+{
+    return (struct render_skin){.mesh = &scene->mesh,
+                                .opacity = scene->opacity,
+                                .shininess = scene->shininess,
+                                .stretch = scene->stretch,
+                                .rest_opacity = 0.97f,
+                                .rest_shininess = 12,
+                                .colour = {0.7f, 0.035f, 0.04f}};
+}
+
 /* Frame i of the run: the sphere swells, its skin thins from opaque to 0.4 and begins to shine. */
 static void draw(struct scene *scene, int i)
 {
@@ -34,13 +47,7 @@ static void draw(struct scene *scene, int i)
         scene->shininess[t] = (float)(100 * part);
         scene->stretch[t] = (float)(1 + 4 * part);
     }
-    struct render_skin skin = {.mesh = &scene->mesh,
-                               .opacity = scene->opacity,
-                               .shininess = scene->shininess,
-                               .stretch = scene->stretch,
-                               .rest_opacity = 0.97f,
-                               .rest_shininess = 12,
-                               .colour = {0.7f, 0.035f, 0.04f}};
+    const struct render_skin skin = skin_of(scene);
     bench_check(render_draw(scene->render, &scene->view, &skin, 1, &scene->image, &err), &err);
 }
 
@@ -101,19 +108,24 @@ static double encode_ms(struct scene *scene)
     return spent / SAMPLES * 1e3;
 }
 
-static void measure(struct scene *scene, const char *name, bool smooth, struct frames_options options)
+/* Drawing alone, encoding alone, and both: what is more than the larger of the two is what they keep each other from. Two cores have no less
+ * to do than half of all threads' time. */
+static void measure(struct scene *scene, const char *name, int asked, struct frames_options options)
 {
     struct error err;
     struct frames *frames;
-    scene->view.smooth_edges = smooth;
-    double drawing = draw_ms(scene).clock, encoding = encode_ms(scene), start = bench_seconds();
+    const double drawing = draw_ms(scene).clock, encoding = encode_ms(scene);
+    const double start = bench_seconds(), busy = bench_process_seconds();
     bench_check(frames_open(&options, &frames, &err), &err);
     for (int i = 0; i < FRAMES; i++) {
         draw(scene, i);
         bench_check(frames_add(frames, &scene->image, i / 30.0, &err), &err);
     }
     bench_check(frames_close(frames, &err), &err);
-    printf("%s\t%.2f\t%.2f\t%.2f\n", name, drawing, encoding, bench_seconds() - start);
+    const double all = bench_seconds() - start, each = 1e3 / FRAMES;
+    printf("%s\t%.2f\t%.2f\t%.2f\t%.2f\t%.2f\t%.2f\t", name, drawing, encoding, all * each,
+           all * each / fmax(drawing, encoding), (bench_process_seconds() - busy) * each / 2, all);
+    printf(asked ? "%d\n" : "-\n", asked);
     fflush(stdout);
 }
 
@@ -146,6 +158,60 @@ static void draw_all_ways(void)
     }
 }
 
+/* Of one frame, in this thread: the order itself, and the cells that bring neighbours together again in each eye's picture; and what the
+ * order changes in drawing, of all threads' time. */
+static void share_of_sorting(struct scene *scene, const char *style)
+{
+    struct error err;
+    struct geometry geometry = {0};
+    struct cells cells[2] = {0};
+    struct camera_eye eyes[2];
+    struct render_skin skin = skin_of(scene);
+    double sorting = 0, celling = 0;
+    scene->view.order = RENDER_NONE;
+    const double plain = draw_ms(scene).process;
+    scene->view.order = RENDER_SORT;
+    const double sorted = draw_ms(scene).process;
+    const int count = camera_eyes(&scene->view, eyes);
+    for (int i = 0; i < SAMPLES; i++) {
+        draw(scene, i * FRAMES / SAMPLES);
+        scene->view.order = RENDER_NONE; /* sorted below */
+        bench_check(geometry_build(&geometry, &scene->view, &skin, 1, NULL, 0, &err), &err);
+        scene->view.order = RENDER_SORT;
+        const double begun = bench_thread_seconds();
+        geometry_sort(geometry.translucent.items, geometry.spare.items, geometry.translucent.count);
+        const double ordered = bench_thread_seconds();
+        for (int eye = 0; eye < count && cells_are_worth_it(&geometry, &scene->view); eye++)
+            bench_check(cells_build(&cells[eye], &geometry, &eyes[eye], &err), &err);
+        sorting += ordered - begun;
+        celling += bench_thread_seconds() - ordered;
+    }
+    const double each = 1e3 / SAMPLES;
+    printf("%s\t%u\t%d\t%.2f\t%.2f\t%.2f\t%.2f\t%.1f %%\t%.1f %%\n", style, scene->mesh.triangle_count,
+           scene->view.smooth_edges, plain, sorted, sorting * each, celling * each,
+           100 * sorting * each / sorted, 100 * (sorted - plain) / sorted);
+    fflush(stdout);
+    geometry_clear(&geometry);
+    for (int eye = 0; eye < 2; eye++)
+        cells_clear(&cells[eye]);
+}
+
+static void sort_all_sizes(void)
+{
+    static const int sizes[][2] = {{39, 40}, {100, 101}, {224, 225}};
+    printf("style\ttriangles\tsmooth\tas they come\tsorted ms\torder ms\tcells ms\torder\tall it costs\n");
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        struct scene scene;
+        open_scene(&scene, sizes[i][0], sizes[i][1]);
+        for (int way = 0; way < 4; way++) {
+            scene.view.style = way & 1 ? RENDER_LATEX : RENDER_PAPER;
+            scene.view.smooth_edges = way & 2;
+            share_of_sorting(&scene, way & 1 ? "latex" : "paper");
+        }
+        close_scene(&scene);
+    }
+}
+
 static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *walk)
 {
     (void)info, (void)kind, (void)walk;
@@ -159,16 +225,21 @@ int main(void)
         return 1;
     struct scene scene;
     draw_all_ways();
+    sort_all_sizes();
     open_scene(&scene, 39, 40);
     printf("400 stereo frames of 1280 x 480, %u triangles\n", scene.mesh.triangle_count);
-    printf("written\tdraw ms\tencode ms\tall s\n");
-    measure(&scene, "PNG", false, (struct frames_options){.folder = "f"});
-    measure(&scene, "PNG, smooth edges", true, (struct frames_options){.folder = "f"});
-    measure(&scene, "PNG, smooth edges, sheet", true,
-            (struct frames_options){.folder = "f", .sheet = "sheet.png"});
+    printf("written\tdraw ms\tencode ms\tframe ms\tratio\tprocessor ms/2\tall s\tasked s\n");
+    measure(&scene, "PNG, paper", 0, (struct frames_options){.folder = "f"});
+    scene.view.style = RENDER_LATEX;
+    scene.view.smooth_edges = true;
+    measure(&scene, "PNG, sorted, smooth", 12, (struct frames_options){.folder = "f"});
+    measure(&scene, "and a sheet", 0, (struct frames_options){.folder = "f", .sheet = "sheet.png"});
     if (!system("command -v ffmpeg >/dev/null"))
-        measure(&scene, "PNG, smooth edges, sheet, mp4", true,
+        measure(&scene, "and mp4", 0,
                 (struct frames_options){.folder = "f", .sheet = "sheet.png", .movie = "m.mp4"});
+    scene.view.order = RENDER_LIST;
+    scene.view.samples = 2;
+    measure(&scene, "PNG, final: 2 x 2, lists", 60, (struct frames_options){.folder = "f"});
     close_scene(&scene);
     if (chdir(".."))
         return 1;
