@@ -1,6 +1,7 @@
 #include "sim/film.h"
 
 #include "common/vec3.h"
+#include "render/camera.h"
 #include "render/frame_files.h"
 #include "sim/skins.h"
 
@@ -66,7 +67,11 @@ enum status film_open(struct sim *sim, const double centre[3], double radius,
     vec3_sub(film->view.camera.eye, film->view.camera.target, film->away);
     film->folder = options->folder;
     film->first = options->first;
-    enum status status = skins_init(&film->skins, sim, err);
+    enum status status = camera_check(&film->view, err);
+    if (status)
+        error_prefix(err, "view");
+    if (!status)
+        status = skins_init(&film->skins, sim, err);
     if (!status)
         status = render_open(film->view.width, film->view.height, &film->render, err);
     if (!status)

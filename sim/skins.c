@@ -114,10 +114,12 @@ void skins_camera(const struct sim *sim, const double centre[3], double radius, 
 {
     const struct scene_view *scene = &sim->scene->view;
     struct render_camera *camera = &view->camera;
+    const double *from = scene->camera;
+    const bool above = fabs(from[1]) > 1e3 * hypot(from[0], from[2]); /* or below: away is up */
     for (int i = 0; i < 3; i++) {
         camera->target[i] = centre[i] + radius * scene->target[i];
-        camera->eye[i] = camera->target[i] + radius * scene->camera[i];
-        camera->up[i] = i == 1;
+        camera->eye[i] = camera->target[i] + radius * from[i];
+        camera->up[i] = above ? -(i == 2) : i == 1;
     }
     camera->field_of_view_deg = scene->field_of_view;
     camera->screen_distance = vec3_distance(camera->eye, camera->target);

@@ -21,9 +21,13 @@ for size in '[0,48]' '[64,1000000]'; do
     refused 1 'size.*16 to 16384|size.*16.*16384' balloon-sim m.ply $short --set "view.size=$size" --frames bad
 done
 refused 1 'camera' balloon-sim m.ply $short --set 'view.camera=[nan,0,1]' --frames bad
-refused 1 'camera sees nothing' balloon-sim m.ply $short --set 'view.camera=[0.0,0.0,0.0]' --frames bad
+refused 1 'view: the camera sees nothing' balloon-sim m.ply $short --set 'view.camera=[0.0,0.0,0.0]' --frames bad
 refused 1 '63 wide' balloon-sim m.ply $short --set view.size=[63,48] --frames bad
 refused 1 'style.*latex' balloon-sim m.ply $short --set view.style=rubber --frames bad
 expect 0 balloon-sim m.ply $short --set view.size=[64,48] --set 'view.camera=[0.0,0.0,0.1]' --frames inside
+for side in above:5.0 below:-5.0; do
+    expect 0 balloon-sim m.ply $short --set view.size=[64,48] --set "view.camera=[0.0,${side#*:},0.0]" --frames "${side%:*}"
+done
+cmp -s above/frame_0001.png below/frame_0001.png && fail "it looks the same from above and from below"
 refused 1 'osmesa' env BALLOON_CONTEXT=none balloon-sim m.ply $short --frames bad
-[ ! -e bad/frame_0000.png ] || fail "a refused run left a frame"
+no_file bad
