@@ -113,6 +113,65 @@ static void a_save_that_fails_leaves_the_name_the_journal_and_the_work_as_they_w
     session_clear(&session);
 }
 
+static void an_export_is_written_beside_carving_and_is_no_save(void **state)
+{
+    (void)state;
+    enum status status;
+    open_new();
+    click(0.3, 0.3);
+    unlink("out.chips");
+    assert_ok(session_export_begin(&session, "out.chips", &err), &err);
+    click(0.7, 0.7);
+    assert_refused(session_export_begin(&session, "more.chips", &err), STATUS_RESOURCE,
+                   "out.chips is being written; wait a moment", &err);
+    assert_refused(session_save(&session, NULL, &err), STATUS_RESOURCE, "out.chips is being written", &err);
+    assert_true(session_write_ended(&session, true, &status, &err));
+    assert_int_equal(status, STATUS_OK);
+    struct chips chips = {0};
+    struct octree tree = {0};
+    assert_ok(chips_load("out.chips", &chips, &err), &err);
+    assert_ok(chips_begin(&chips, 0, &tree, &err), &err);
+    assert_ok(chips_run(&tree, &chips, NULL, &err), &err);
+    assert_tree(&tree, FIRST);
+    assert_string_equal(session.path, "new.oct");
+    assert_true(session.unsaved);
+    octree_clear(&tree);
+    chips_clear(&chips);
+    session_clear(&session);
+}
+
+static void an_export_that_fails_says_why_when_it_has_ended(void **state)
+{
+    (void)state;
+    enum status status;
+    open_new();
+    click(0.3, 0.3);
+    assert_ok(session_export_begin(&session, "nowhere/out.vox", &err), &err);
+    assert_true(session_write_ended(&session, true, &status, &err));
+    assert_refused(status, STATUS_FILE, "nowhere/out.vox: cannot create", &err);
+    assert_true(session.unsaved);
+    session_clear(&session);
+}
+
+static void a_name_that_another_program_carves_under_is_not_taken(void **state)
+{
+    (void)state;
+    struct journal *others = NULL;
+    open_new();
+    click(0.3, 0.3);
+    unlink("other.oct");
+    unlink("other.oct.journal");
+    assert_ok(journal_open("other.oct", &session.tree, &others, &err), &err);
+    assert_refused(session_save_as(&session, "other.oct", NULL, &err), STATUS_RESOURCE, "other.oct", &err);
+    assert_int_equal(access("other.oct", F_OK), -1);
+    assert_string_equal(session.path, "new.oct");
+    assert_true(session.unsaved);
+    journal_close(others, true);
+    assert_ok(session_save_as(&session, "other.oct", NULL, &err), &err); /* it has gone away */
+    assert_file("other.oct", FIRST);
+    session_clear(&session);
+}
+
 /* Where no journal can be kept the user is told, carves, and goes on under a name that can have one. */
 static void without_a_journal_work_is_kept_from_the_first_save_on(void **state)
 {
@@ -222,6 +281,9 @@ int main(void)
         cmocka_unit_test(what_is_carved_while_it_saves_is_not_in_the_file_and_unsaved),
         cmocka_unit_test(undo_of_steps_before_a_new_name_survives_a_kill),
         cmocka_unit_test(a_save_that_fails_leaves_the_name_the_journal_and_the_work_as_they_were),
+        cmocka_unit_test(an_export_is_written_beside_carving_and_is_no_save),
+        cmocka_unit_test(an_export_that_fails_says_why_when_it_has_ended),
+        cmocka_unit_test(a_name_that_another_program_carves_under_is_not_taken),
         cmocka_unit_test(without_a_journal_work_is_kept_from_the_first_save_on),
         cmocka_unit_test(chunks_that_are_not_known_are_kept),
         cmocka_unit_test(what_has_no_file_yet_is_unsaved_work_that_survives_a_kill),
