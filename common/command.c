@@ -8,8 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-#include <unistd.h>
 
 static const char *command_name = "balloon";
 static bool command_quiet;
@@ -36,6 +34,11 @@ void command_keep_memory(void)
 void command_set_quiet(bool quiet)
 {
     command_quiet = quiet;
+}
+
+bool command_is_quiet(void)
+{
+    return command_quiet;
 }
 
 void command_note(const char *format, ...)
@@ -100,58 +103,4 @@ void command_extension(struct argp_state *state, const char *option, const char 
     const char *slash = strrchr(argument, '/');
     if (strchr(slash ? slash : argument, '.') && !file_has_extension(argument, extension))
         argp_error(state, "%s %s: the name must end in .%s", option, argument, extension);
-}
-
-static struct {
-    const char *what, *unit;
-    double total, began, shown;
-    bool on;
-} progress;
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-void progress_begin(const char *what, const char *unit, double total)
-{
-    progress.on = !command_quiet && isatty(STDERR_FILENO);
-    progress.what = what;
-    progress.unit = unit;
-    progress.total = total;
-    progress.began = now();
-    progress.shown = 0;
-}
-
-static void show(double done, double time)
-{
-    enum { WIDTH = 30 };
-    double spent = time - progress.began;
-    double rate = spent > 0 ? done / spent : 0;
-    double share = progress.total > 0 ? fmin(done / progress.total, 1) : 0;
-    char bar[WIDTH + 1];
-    for (int i = 0; i < WIDTH; i++)
-        bar[i] = i < share * WIDTH ? '#' : '.';
-    bar[WIDTH] = '\0';
-    fprintf(stderr, "\r%s %s %3.0f %%  %.0f %s/s  %.0f s left \033[K", progress.what, bar, 100 * share, rate,
-            progress.unit, rate > 0 ? (progress.total - done) / rate : 0);
-    progress.shown = time;
-}
-
-void progress_update(double done)
-{
-    if (!progress.on)
-        return;
-    double time = now();
-    if (time - progress.shown >= 0.1)
-        show(done, time);
-}
-
-void progress_end(void)
-{
-    if (progress.on)
-        fputs("\r\033[K", stderr);
-    progress.on = false;
 }

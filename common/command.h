@@ -23,6 +23,7 @@ void command_keep_memory(void);
 
 /* -q: notes and progress are not shown. */
 void command_set_quiet(bool quiet);
+bool command_is_quiet(void);
 
 /* A line on stderr, unless quiet. */
 void command_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
@@ -48,8 +49,9 @@ void command_extension(struct argp_state *state, const char *option, const char 
 /* A number that fills its whole text ("1e-3", not "1e-3x", not ""). nan and inf are refused. */
 bool number_parse(const char *text, double *value);
 
-/* A bar with rate and time left on stderr, at most ten times a second, and only where stderr is a terminal.
- */
+/* A bar with rate and time left on stderr, at most ten times a second, and only where stderr is a terminal. Elsewhere work that
+ * takes long is not done without a word: after 20 s, 40 s, 80 s ... of which 10 s were work, a note says how much is done and how
+ * long the rest takes at that pace, unless that is less than a minute. The first update says where the work begins. */
 void progress_begin(const char *what, const char *unit, double total);
 void progress_update(double done);
 void progress_end(void);

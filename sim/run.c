@@ -110,6 +110,7 @@ static enum status step_to_end(struct run *run, struct error *err)
     enum status status = outputs_show(&run->outputs, sim, err);
     run->began = run->kept = now();
     progress_begin("inflating", "steps", steps);
+    progress_update(sim->time / end * steps);
     while (!status && !sim_at_end(sim)) {
         status = step(run, err);
         if (!status)
