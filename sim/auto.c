@@ -125,7 +125,8 @@ static double least_work(const struct sim *sim, int candidate)
 static struct option untried(const struct sim *sim, int candidate, double parts)
 {
     const double least = least_work(sim, candidate);
-    return (struct option){candidate, parts, {INFINITY, parts <= GUARD_PARTS_MAX ? least * parts : INFINITY}};
+    return (struct option){
+        candidate, parts, {INFINITY, parts <= GUARD_PARTS_MAX ? least * parts : INFINITY, false}};
 }
 
 /* How many of the scene's steps a trial takes: two, or one where they are split in many parts, and before the first step, since
@@ -142,14 +143,15 @@ static void try_option(struct sim *sim, struct option *option)
                                (uint32_t)option->parts, trial_steps(sim, option->parts), TRIAL_ROWS);
 }
 
-/* In how many more parts it would keep the tolerance, by its order; of errors near the radius that says little. */
+/* In how many more parts it would keep the tolerance, by its order; of errors near the radius that says little. What took too much
+ * work takes no less in more parts. */
 static struct option split_further(const struct sim *sim, const struct option *option, double tolerance,
                                    double most)
 {
     const double error = option->result.error, farthest = error < 1e-2 ? INFINITY : 8;
     const double missing = pow(error / tolerance, 1.0 / candidates[option->candidate]->order);
     const double parts = ceil(option->parts * fmin(fmax(1.1 * missing, 1.25), farthest));
-    return untried(sim, option->candidate, parts <= most ? parts : INFINITY);
+    return untried(sim, option->candidate, parts <= most && !option->result.too_dear ? parts : INFINITY);
 }
 
 /* The one with the least work; of those that are within a tenth of it the one of the highest order, whose errors are less. */
@@ -174,7 +176,7 @@ static struct option find_best(struct sim *sim)
     enum { TRIALS_MAX = 30, PARTS_MORE = 64 };
     struct auto_method *m = sim->method;
     const double tolerance = sim->scene->time.tolerance;
-    struct option next[CANDIDATES], nearest = {.parts = 1, .result = {INFINITY, INFINITY}};
+    struct option next[CANDIDATES], nearest = {.parts = 1, .result = {INFINITY, INFINITY, false}};
     double most[CANDIDATES];
     for (int i = 0; i < CANDIDATES; i++) {
         next[i] = untried(sim, i, m->is_open[i] ? fewest_parts(sim, i) : INFINITY);

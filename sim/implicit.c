@@ -230,6 +230,13 @@ static bool has_turned(struct sim *sim)
     return turned;
 }
 
+/* Whether a trial has had enough of this method. */
+static bool is_too_dear(const struct sim *sim)
+{
+    const struct implicit *m = sim->method;
+    return m->iterations_most && m->solver.iterations > m->iterations_most;
+}
+
 enum status implicit_step(struct sim *sim, double dt, bool (*take)(struct sim *sim, double h),
                           struct error *err)
 {
@@ -237,14 +244,14 @@ enum status implicit_step(struct sim *sim, double dt, bool (*take)(struct sim *s
     unsigned place = 0, size = whole;
     while (place < whole) {
         remember_start(sim);
-        if (take(sim, dt * size / whole) && (size == 1 || !has_turned(sim))) {
+        if (!is_too_dear(sim) && take(sim, dt * size / whole) && (size == 1 || !has_turned(sim))) {
             place += size;
             while (place % (2 * size) == 0 && place < whole)
                 size *= 2; /* what was difficult is over */
             continue;
         }
         return_to_start(sim);
-        if (size == 1)
+        if (size == 1 || is_too_dear(sim))
             return give_up(sim, dt, err);
         size /= 2;
     }

@@ -28,9 +28,10 @@ enum {
 /* An implicit integrator's sim->method, its open and its close. Error: STATUS_NO_MEMORY. */
 struct implicit {
     struct solver solver;
-    bool *turned;         /* [part_count] whether an edge has */
-    double worst;         /* residual over mass of the point whose equation was furthest from solved, */
-    uint32_t worst_point; /* when it was given up last */
+    uint64_t iterations_most; /* of the solver, in all: where steps are given up as too dear; 0: nowhere */
+    bool *turned;             /* [part_count] whether an edge has */
+    double worst;             /* residual over mass of the point whose equation was furthest from solved, */
+    uint32_t worst_point;     /* when it was given up last */
 };
 enum status implicit_open(struct sim *sim, struct error *err);
 void implicit_close(struct sim *sim);

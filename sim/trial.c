@@ -49,6 +49,15 @@ static uint64_t iterations_of(const struct sim *sim, const struct integrator *me
                                                : 0;
 }
 
+/* From here on an implicit method may take so many of the solver's iterations a step of the scene; 0: as many as it wants. */
+static void limit(struct sim *sim, const struct integrator *method, uint64_t iterations)
+{
+    if (!(method->flags & INTEGRATOR_IMPLICIT))
+        return;
+    struct implicit *m = sim->method;
+    m->iterations_most = iterations ? m->solver.iterations + iterations : 0;
+}
+
 /* RMS distance of the points from where they were at the end of the run before, each in its balloon's radii. */
 static double distance(const struct sim *sim, double (*coarse)[4])
 {
@@ -74,14 +83,18 @@ struct trial_result trial_run(struct sim *sim, const struct integrator *method, 
     keep(sim, rows);
     sim->changed = true;
     const uint64_t evaluations = sim->evaluations, iterations = iterations_of(sim, method);
+    const uint64_t most = (uint64_t)(TRIAL_WORK_MAX / iteration_work) * steps;
+    limit(sim, method, most);
     bool good = advance_by(sim, method, parts, steps);
     const double each = method->flags & INTEGRATOR_IMPLICIT ? derivatives_work : 1;
     result.work = move_work * parts + (each * (double)(sim->evaluations - evaluations) +
                                        iteration_work * (double)(iterations_of(sim, method) - iterations)) /
                                           steps;
+    result.too_dear = !good && result.work > TRIAL_WORK_MAX;
     if (good) {
         vector_copy(sim, sim->scratch[rows + COARSE], sim->position);
         put_back(sim, rows);
+        limit(sim, method, 2 * most);
         good = advance_by(sim, method, 2 * parts, steps);
     }
     if (good) {
@@ -90,6 +103,7 @@ struct trial_result trial_run(struct sim *sim, const struct integrator *method, 
         result.error = isfinite(error) ? error : INFINITY;
     }
     put_back(sim, rows);
+    limit(sim, method, 0);
     sim->method = before;
     return result;
 }

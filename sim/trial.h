@@ -14,9 +14,13 @@ enum { TRIAL_VECTORS = 3 };
 /* Work of one step of an implicit method, at the least: two evaluations with derivatives and three iterations. */
 enum { TRIAL_IMPLICIT_LEAST = 22 };
 
+/* The most work of one that a trial sees through: what the guard splits no step further than (GUARD_PARTS_MAX). */
+enum { TRIAL_WORK_MAX = 1000000 };
+
 struct trial_result {
-    double error; /* RMS over the points, in mean radii, a step of the scene; INFINITY: it got nowhere */
-    double work;  /* evaluations of the forces a step of the scene, or what takes as long */
+    double error;  /* RMS over the points, in mean radii, a step of the scene; INFINITY: it got nowhere */
+    double work;   /* evaluations of the forces a step of the scene, or what takes as long */
+    bool too_dear; /* more than TRIAL_WORK_MAX, and given up */
 };
 
 /* Runs `steps` of the scene's steps by a method that is open, whose own is `own` (struct sim, method), once in `parts` and once
