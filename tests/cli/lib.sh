@@ -47,6 +47,9 @@ skipped()
 }
 needs() { command -v "$1" >/dev/null || skipped "$1 is not installed"; }
 
+# files_can_be_small BLOCKS PROGRAM: whether the program can begin where no file may be larger; the thread sanitizer writes one of its own.
+files_can_be_small() { (ulimit -f "$1" && "$2" --version) >/dev/null 2>&1; }
+
 no_file() { [ ! -e "$1" ] || fail "$1 was left behind"; }
 a_file() { [ -s "$1" ] || fail "$1 is missing or empty"; }
 same_file() { cmp -s "$1" "$2" || fail "$1 and $2 differ"; }

@@ -292,6 +292,56 @@ static void chunks_that_are_others_than_they_must_be_are_named(void **state)
     close_balloon(&b);
 }
 
+/* Sets a byte of what is in the first chunk of this name in a.ck, with the checksum that it then must have. */
+static void set_byte(const char *chunk, size_t at, unsigned char value)
+{
+    struct error err = {0};
+    struct bytes file = {0};
+    assert_ok(file_read("a.ck", &file, &err), &err);
+    unsigned char *head = memmem(file.data, file.size, chunk, strlen(chunk));
+    assert_non_null(head);
+    uint64_t size;
+    memcpy(&size, head + 4, sizeof size);
+    assert_true(at < size);
+    head[12 + at] = value;
+    const uint32_t crc = crc32_bytes(0, head, 12 + size);
+    memcpy(head + 12 + size, &crc, sizeof crc);
+    write_bytes("a.ck", file.data, file.size);
+    bytes_clear(&file);
+}
+
+static void what_another_version_wrote_is_refused_with_what_differs(void **state)
+{
+    (void)state;
+    enum { NAME = 4 }; /* behind the name's length */
+    static const struct {
+        const char *chunk;
+        size_t at;
+        unsigned char value;
+        const char *message;
+    } cases[] = {
+        {"HEAD", 0, 200, "chunk HEAD: version 200 of the format; this program reads version "},
+        {"RUN ", 15, 0xff, ": its times are none"}, /* the sign of the seconds */
+        {"DATA", 0, 65, ": has no name"},
+        {"DATA", 1, 1, ": has no name"},
+        {"DATA", NAME, '?', "must be; was it written by another version?"},
+    };
+    struct error err = {0};
+    struct balloon b;
+    open_balloon(&b, 0, SETTINGS("balloons[0].pressure=10"));
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        assert_ok(save(&b.sim, "a.ck", &err), &err);
+        set_byte(cases[i].chunk, cases[i].at, cases[i].value);
+        assert_refused(load(&b.sim, "a.ck", &err), STATUS_INPUT, cases[i].message, &err);
+    }
+    assert_ok(save(&b.sim, "a.ck", &err), &err);
+    change_chunk("DATA", "DATA", 1);
+    assert_refused(load(&b.sim, "a.ck", &err), STATUS_INPUT, " here", &err);
+    assert_non_null(strstr(err.text, " bytes, and must have "));
+    unlink("a.ck");
+    close_balloon(&b);
+}
+
 static void points_that_are_nowhere_are_no_state(void **state)
 {
     (void)state;
@@ -346,6 +396,7 @@ int main(void)
         cmocka_unit_test(points_that_are_nowhere_are_no_state),
         cmocka_unit_test(a_log_of_other_columns_is_not_gone_on_with),
         cmocka_unit_test(chunks_that_are_others_than_they_must_be_are_named),
+        cmocka_unit_test(what_another_version_wrote_is_refused_with_what_differs),
     };
     return cmocka_run_group_tests(tests, enter_memory, leave_folder);
 }

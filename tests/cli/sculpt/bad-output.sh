@@ -19,8 +19,10 @@ stderr_has 'cannot write the results'
 expect 0 balloon-sculpt --depth 3 -o kept.oct
 cp kept.oct before.oct
 echo 'chip sphere 0.5 0.5 1 0.4' >carve.chips
-expect 1 sh -c 'ulimit -f 2; balloon-sculpt kept.oct --script carve.chips -o kept.oct'
-stderr_has 'kept\.oct: cannot write: File too large'
-one_message
+if files_can_be_small 2 balloon-sculpt; then
+    expect 1 sh -c 'ulimit -f 2; balloon-sculpt kept.oct --script carve.chips -o kept.oct'
+    stderr_has 'kept\.oct: cannot write: File too large'
+    one_message
+fi
 same_file kept.oct before.oct
 only_files folder.oct empty.chips kept.oct before.oct carve.chips

@@ -32,8 +32,10 @@ refused 1 '/proc/run.ck: cannot create' balloon-sim m.ply $short --checkpoint /p
 refused 1 'no/such/run.ck: cannot create' balloon-sim m.ply $short --checkpoint no/such/run.ck
 refused 1 '/dev/full: cannot write: No space left' balloon-sim m.ply $short --checkpoint /dev/full
 cp run.ck before.ck
-refused 1 'run.ck: cannot write: File too large' \
-    sh -c 'ulimit -f 1; exec balloon-sim "$@"' sh m.ply $short --checkpoint run.ck
+if files_can_be_small 1 balloon-sim; then
+    refused 1 'run.ck: cannot write: File too large' \
+        sh -c 'ulimit -f 1; exec balloon-sim "$@"' sh m.ply $short --checkpoint run.ck
+fi
 same_file run.ck before.ck
 refused 2 'checkpoint-every: give --checkpoint FILE too' balloon-sim m.ply --checkpoint-every 5
 refused 2 'checkpoint-every -1: must be a number' balloon-sim m.ply --checkpoint run.ck --checkpoint-every -1

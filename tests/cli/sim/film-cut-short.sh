@@ -17,13 +17,15 @@ no_file f
 command -v ffmpeg >/dev/null || exit 0
 
 # No room for the movie in mid-film: one message, the frames so far and the old movie stay.
-echo old >m.gif
-expect 1 sh -c 'ulimit -f 8; exec "$@"' sh balloon-sim "$@" --set time.end=1e3 --frames f --movie m.gif --turntable
-stderr_has 'm.gif: ffmpeg failed: .*'
-one_message
-a_file f/frame_0000.png
-a_file f/frame_0004.png
-[ "$(cat m.gif)" = old ] || fail "the old movie is gone"
+if files_can_be_small 8 balloon-sim; then
+    echo old >m.gif
+    expect 1 sh -c 'ulimit -f 8; exec "$@"' sh balloon-sim "$@" --set time.end=1e3 --frames f --movie m.gif --turntable
+    stderr_has 'm.gif: ffmpeg failed: .*'
+    one_message
+    a_file f/frame_0000.png
+    a_file f/frame_0004.png
+    [ "$(cat m.gif)" = old ] || fail "the old movie is gone"
+fi
 
 # Killed with its ffmpeg: what there is under the other name can be played.
 for kind in mp4 webm; do
