@@ -1,6 +1,6 @@
 # A run that would take for ever says so where no progress bar is shown: how much is done, and how long the rest takes.
 ply m.ply "$tetra_points" "$tetra_triangles"
-set -- m.ply --set time.integrator=verlet --set time.end=1e9 --set 'balloons[0].pressure=0' --set view.rate=1e-6
+set -- m.ply --set time.integrator=verlet --set time.end=1e9 --set 'balloons[0].pressure=0' --set view.rate=1e-6 --hash
 run_for_a_while() # COMMAND...
 {
     command_line=$*
