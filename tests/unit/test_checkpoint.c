@@ -244,17 +244,24 @@ static void what_is_sound_and_yet_no_state_is_refused(void **state)
     close_balloon(&b);
 }
 
+/* Reads a.ck; returns where its first chunk of this name is, or what begins with that, and the size of what is in it. */
+static unsigned char *read_chunk(const char *name, struct bytes *file, uint64_t *size)
+{
+    struct error err = {0};
+    assert_ok(file_read("a.ck", file, &err), &err);
+    unsigned char *head = memmem(file->data, file->size, name, strlen(name));
+    assert_non_null(head);
+    memcpy(size, head + 4, sizeof *size);
+    return head;
+}
+
 /* Writes a.ck anew with the chunk whose bytes begin with `block` behind its head changed: its name, or its size (the rest of the
  * file follows), with the checksum that it then must have. */
 static void change_chunk(const char *block, const char *name, size_t shorter)
 {
-    struct error err = {0};
     struct bytes file = {0};
-    assert_ok(file_read("a.ck", &file, &err), &err);
-    unsigned char *head = memmem(file.data, file.size, block, strlen(block));
-    assert_non_null(head);
     uint64_t size;
-    memcpy(&size, head + 4, sizeof size);
+    unsigned char *head = read_chunk(block, &file, &size);
     unsigned char *end = head + 12 + size, *new_end = end - shorter;
     size -= shorter;
     memcpy(head, name, 4);
@@ -295,13 +302,9 @@ static void chunks_that_are_others_than_they_must_be_are_named(void **state)
 /* Sets a byte of what is in the first chunk of this name in a.ck, with the checksum that it then must have. */
 static void set_byte(const char *chunk, size_t at, unsigned char value)
 {
-    struct error err = {0};
     struct bytes file = {0};
-    assert_ok(file_read("a.ck", &file, &err), &err);
-    unsigned char *head = memmem(file.data, file.size, chunk, strlen(chunk));
-    assert_non_null(head);
     uint64_t size;
-    memcpy(&size, head + 4, sizeof size);
+    unsigned char *head = read_chunk(chunk, &file, &size);
     assert_true(at < size);
     head[12 + at] = value;
     const uint32_t crc = crc32_bytes(0, head, 12 + size);
