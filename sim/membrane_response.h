@@ -61,7 +61,7 @@ struct chebyshev {
     lanes value, first, second;
 };
 
-static inline struct chebyshev chebyshev_series(const double *coefficient, lanes z)
+INLINE struct chebyshev chebyshev_series(const double *coefficient, lanes z)
 {
     struct chebyshev t = {lanes_all(0), lanes_all(0), lanes_all(0)};
     for (int k = MEMBRANE_SERIES - 1; k >= 0; k--) { /* Horner's scheme, three at once */
@@ -75,7 +75,7 @@ static inline struct chebyshev chebyshev_series(const double *coefficient, lanes
 /* Up to this z the series will do: what it leaves out is about (2 v^2 z)^9/18!, below 1e-20 for v <= 10. */
 #define CHEBYSHEV_NEAR 1e-3
 
-static inline struct chebyshev chebyshev_far(double v, lanes z, lanes y)
+INLINE struct chebyshev chebyshev_far(double v, lanes z, lanes y)
 {
     const lanes x = 1 + z, above = lanes_max(z * (2 + z), lanes_all(CHEBYSHEV_NEAR)),
                 root = lanes_sqrt(above);
@@ -86,9 +86,9 @@ static inline struct chebyshev chebyshev_far(double v, lanes z, lanes y)
 }
 
 /* x < 1, with cosines: only where both stretches of a crushed triangle are small. One by one, since it is seldom. */
-static inline struct chebyshev chebyshev_below(double v, lanes z)
+static __attribute__((noinline)) struct chebyshev chebyshev_below(double v, lanes z)
 {
-    struct chebyshev t;
+    struct chebyshev t = {lanes_all(0), lanes_all(0), lanes_all(0)};
     for (int i = 0; i < 4; i++) {
         const double x = 1 + fmin(z[i], -CHEBYSHEV_NEAR), above = x * x - 1, angle = acos(x);
         t.value[i] = cos(v * angle);
@@ -98,13 +98,13 @@ static inline struct chebyshev chebyshev_below(double v, lanes z)
     return t;
 }
 
-static inline struct chebyshev chebyshev_select(lane_mask mask, struct chebyshev a, struct chebyshev b)
+INLINE struct chebyshev chebyshev_select(lane_mask mask, struct chebyshev a, struct chebyshev b)
 {
     return (struct chebyshev){lanes_select(mask, a.value, b.value), lanes_select(mask, a.first, b.first),
                               lanes_select(mask, a.second, b.second)};
 }
 
-static inline struct chebyshev chebyshev(double v, const double *coefficient, lanes z, lane_mask far, lanes y)
+INLINE struct chebyshev chebyshev(double v, const double *coefficient, lanes z, lane_mask far, lanes y)
 {
     const lane_mask below = (lane_mask)(z < -CHEBYSHEV_NEAR);
     struct chebyshev t = chebyshev_series(coefficient, lanes_select(far | below, lanes_all(0), z));
@@ -116,7 +116,7 @@ static inline struct chebyshev chebyshev(double v, const double *coefficient, la
 }
 
 /* With x = a/(2 sqrt D), L1^alpha + L2^alpha = 2 D^(alpha/4) T(x) of the degree alpha/2, and L3^alpha = D^(-alpha/2). */
-static inline struct response ogden_response(const struct membrane_law *law, struct stretched s, int asked)
+INLINE struct response ogden_response(const struct membrane_law *law, struct stretched s, int asked)
 {
     const lanes root = lanes_sqrt(s.d), i = 1 / s.d;
     const lanes z = s.gap / (2 * root * (s.a + 2 * root)), x = 1 + z;
@@ -130,7 +130,7 @@ static inline struct response ogden_response(const struct membrane_law *law, str
     for (int p = 0; p < law->terms; p++) {
         const double v = law->power[p] / 2, h = v / 2, weight = law->weight[p];
         const struct chebyshev t = chebyshev(v, law->series[p], z, far, y);
-        const lanes e = (2 * weight) * lanes_exp(h * log_d), third = weight * lanes_exp(-v * log_d);
+        const lanes power = lanes_exp(h * log_d), e = (2 * weight) * power, third = weight / (power * power);
         const lanes ed = h * e * i;
         w.a += e * t.first * xa;
         w.d += ed * t.value + e * t.first * xd - v * third * i;
