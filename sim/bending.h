@@ -45,7 +45,6 @@ struct bending_passes {
     double (*normal)[4];             /* [triangles] */
     double *cotangent[3], *swing[3]; /* [triangles] each; swing NULL where nothing is damped */
     double *least;                   /* [triangles] below that |n|^2 a hinge takes it for crushed */
-    double *pull;                    /* [edges, and those that cuts may bring] */
     bool *
         crushed; /* [part_count] some triangle is; a line of the cache would be shared, but is hardly ever written */
 };

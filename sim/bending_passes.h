@@ -58,7 +58,7 @@ INLINE struct hinge_work hinge_work_of(const struct sim *sim, const struct sim_b
                                .sine = h->rest[1],
                                .at_rest = h->rest[3],
                                .swing = {p->swing[0], p->swing[1], p->swing[2]},
-                               .pull = p->pull,
+                               .pull = sim->hinge_pull + b->edge_begin,
                                .damping = h->damping,
                                .careful = careful};
 }
@@ -153,14 +153,13 @@ static void hinge_pulls(struct sim *sim, const struct sim_part *part, bool crush
                                                  : put_all_pulls(sim, part, crushed, false);
 }
 
-/* What the third pass works with; the tables of triangles begin with the balloon's first. */
+/* What the third pass works with; tables of triangles begin with the balloon's first. */
 struct pull_work {
     row *force;
     const row *normal;
     const double *cotangent[3];
     const uint32_t (*point)[3], (*edge)[3];
     const double *pull;
-    size_t first; /* edge */
 };
 
 INLINE struct pull_work pull_work_of(const struct sim *sim, const struct sim_balloon *b)
@@ -171,8 +170,7 @@ INLINE struct pull_work pull_work_of(const struct sim *sim, const struct sim_bal
                               .cotangent = {p->cotangent[0], p->cotangent[1], p->cotangent[2]},
                               .point = (const uint32_t(*)[3])sim->triangle_point + b->triangle_begin,
                               .edge = (const uint32_t(*)[3])sim->triangle_edge + b->triangle_begin,
-                              .pull = p->pull,
-                              .first = b->edge_begin};
+                              .pull = sim->hinge_pull};
 }
 
 INLINE row unit_of(row normal)
@@ -184,8 +182,7 @@ INLINE row unit_of(row normal)
 /* Of one triangle, the force on those of its points that are the part's. Corner k is across from side k + 1. */
 INLINE void add_to_own_corners(const struct pull_work *w, const struct sim_part *part, size_t t)
 {
-    const double h0 = w->pull[w->edge[t][1] - w->first], h1 = w->pull[w->edge[t][2] - w->first],
-                 h2 = w->pull[w->edge[t][0] - w->first];
+    const double h0 = w->pull[w->edge[t][1]], h1 = w->pull[w->edge[t][2]], h2 = w->pull[w->edge[t][0]];
     const double g0 = w->cotangent[0][t] * (h1 - h2), g1 = w->cotangent[1][t] * (h2 - h0),
                  g2 = w->cotangent[2][t] * (h0 - h1);
     const double c[3] = {g2 - g1, g0 - g2, g1 - g0};
@@ -201,8 +198,8 @@ INLINE void add_to_corners(const struct pull_work *w, size_t t)
     lanes h[3];
     for (int k = 0; k < 3; k++) {
         const int side = (k + 1) % 3;
-        h[k] = (lanes){w->pull[w->edge[t][side] - w->first], w->pull[w->edge[t + 1][side] - w->first],
-                       w->pull[w->edge[t + 2][side] - w->first], w->pull[w->edge[t + 3][side] - w->first]};
+        h[k] = (lanes){w->pull[w->edge[t][side]], w->pull[w->edge[t + 1][side]],
+                       w->pull[w->edge[t + 2][side]], w->pull[w->edge[t + 3][side]]};
     }
     const lanes g0 = lanes_at(w->cotangent[0] + t) * (h[1] - h[2]),
                 g1 = lanes_at(w->cotangent[1] + t) * (h[2] - h[0]),

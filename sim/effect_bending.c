@@ -145,9 +145,10 @@ static bool make_passes(struct sim *sim, const struct sim_balloon *b, struct ben
     const uint32_t triangles = b->triangle_end - b->triangle_begin;
     p->normal = sim_table(sim, triangles, sizeof *p->normal);
     p->least = sim_table(sim, triangles, sizeof *p->least);
-    p->pull = sim_table(sim, b->edge_room - b->edge_begin, sizeof *p->pull);
+    if (!sim->hinge_pull)
+        sim->hinge_pull = sim_table(sim, sim->edge_count, sizeof *sim->hinge_pull);
     p->crushed = sim_table(sim, sim->part_count, sizeof *p->crushed);
-    bool room = p->normal && p->least && p->pull && p->crushed;
+    bool room = p->normal && p->least && p->crushed && sim->hinge_pull;
     for (int k = 0; k < 3 && room; k++) {
         p->cotangent[k] = sim_table(sim, triangles, sizeof *p->cotangent[k]);
         if (h->damping > 0)
@@ -205,13 +206,14 @@ static void free_passes(struct bending_passes *p)
     }
     free(p->normal);
     free(p->least);
-    free(p->pull);
     free(p->crushed);
 }
 
 static void close(struct sim *sim, struct sim_balloon *b)
 {
     struct bending *h = b->bending;
+    free(sim->hinge_pull); /* all close at once */
+    sim->hinge_pull = NULL;
     if (!h)
         return;
     for (size_t i = 0; h->reach && i < sim->part_count; i++)

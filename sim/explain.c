@@ -50,9 +50,9 @@ static const struct cost {
     {"contact",
      "950 bytes a triangle, and where points were; while nothing is near anything a look at each point, and now and then at all "
      "triangles (folded skin takes many times that)",
-     {6, 8, 0},
+     {4, 4, 0},
      {0, 0, 0},
-     {1, 2, 0.5}},
+     {0, 0, 0}},
     {"gravity", "a pass over the points", {5, 4, 0}, {0, 0, 0}, {0, 0, 0}},
     {"drag", "a row a point, and more work on each triangle", {3, 1, 0}, {0, 0, 0}, {7, 8, 0}},
     {"string", "a patch of points; six numbers where a weight hangs on it", {0, 0, 0}, {0, 0, 0}, {0, 0, 0}},

@@ -216,9 +216,10 @@ struct sim {
     struct obstacles *obstacles; /* what stands in the way (obstacles.h); NULL: nothing */
     struct needles *needles;     /* how near they are (effect_needles.c); NULL: there are none */
     struct contact *contact;     /* what keeps skins apart (contact.h); NULL: nothing */
-    struct air_drag *drag;       /* what the air's resistance remembers (effect_drag.c) */
-    struct hand *hand;           /* that pulls at it (live_hand.h); NULL: none */
-    uint64_t fingerprint;        /* checkpoint_fingerprint() before anything was cut; 0: nothing can be */
+    double *hinge_pull; /* [edge_count] of skin that resists being bent (bending_passes.h); NULL: none does */
+    struct air_drag *drag; /* what the air's resistance remembers (effect_drag.c) */
+    struct hand *hand;     /* that pulls at it (live_hand.h); NULL: none */
+    uint64_t fingerprint;  /* checkpoint_fingerprint() before anything was cut; 0: nothing can be */
     uint64_t
         evaluations;   /* of sim_forces() since sim_open(), also of those for a look; nothing depends on it */
     uint64_t products; /* of sim_force_product(), likewise */
