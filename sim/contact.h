@@ -19,7 +19,6 @@
 #ifndef SIM_CONTACT_H
 #define SIM_CONTACT_H
 
-#include "sim/contact_kernels.h"
 #include "sim/contact_tree.h"
 
 /* A point and a triangle, or two edges. With `gone` from 0 where the lines begin to 1 at their ends they are, on the lines, no nearer
@@ -45,7 +44,6 @@ struct contact_motion {
 struct contact {
     double thickness, friction; /* skins are kept between half of it and all of it apart */
     struct contact_tree tree;
-    const struct contact_kernels *kernels;
 
     /* The lines that the list was made for, gone along from one end to the other in so many steps; the state, since other lists could find
      * other touches first. */

@@ -117,5 +117,89 @@ static void apart(const struct contact_flock *flock, uint32_t (*points)[4], uint
             four_apart(flock, CCD_POINT_TRIANGLE, (const uint32_t(*)[4]) & points[i], &apart[i]);
 }
 
+/* Half of the directions to the middles of a cube's faces, edges and corners; the others are their opposites. */
+enum { SIDES = 13 };
+
+static inline void along_sides(struct lanes3 n, lanes along[SIDES])
+{
+    const lanes sum = n.x + n.y, difference = n.x - n.y;
+    const lanes of[SIDES] = {
+        n.x,       n.y,       n.z,       sum,       difference,       n.x + n.z,       n.x - n.z,
+        n.y + n.z, n.y - n.z, sum + n.z, sum - n.z, difference + n.z, difference - n.z};
+    for (int i = 0; i < SIDES; i++)
+        along[i] = of[i];
+}
+
+/* A triangle with its corners in one place, and the sum of its sides' squares. */
+static inline struct lanes3 normal_of(const struct lanes3 x[3], lanes *squares)
+{
+    const struct lanes3 ab = sub(x[1], x[0]), ac = sub(x[2], x[0]), bc = sub(x[2], x[1]);
+    *squares = lanes_dot(ab, ab) + lanes_dot(ac, ac) + lanes_dot(bc, bc);
+    return lanes_cross(ab, ac);
+}
+
+/* How far the normal is at least along each direction, and at most, on the way: it is made of three vectors (contact_tree.h). */
+static inline void span_sides(const struct lanes3 from[3], const struct lanes3 to[3], lanes least[SIDES],
+                              lanes most[SIDES], lanes *squares)
+{
+    lanes at_to, ignored, along[3][SIDES];
+    const struct lanes3 way[3] = {sub(to[0], from[0]), sub(to[1], from[1]), sub(to[2], from[2])},
+                        n0 = normal_of(from, squares), n1 = normal_of(to, &at_to),
+                        turn = normal_of(way, &ignored), sum = lanes_sum(lanes_all(1), n0, lanes_all(1), n1);
+    *squares = lanes_max(*squares, at_to);
+    along_sides(n0, along[0]);
+    along_sides(n1, along[1]);
+    along_sides(scale(lanes_all(0.5), sub(sum, turn)), along[2]);
+    for (int i = 0; i < SIDES; i++) {
+        least[i] = lanes_min(lanes_min(along[0][i], along[1][i]), along[2][i]);
+        most[i] = lanes_max(lanes_max(along[0][i], along[1][i]), along[2][i]);
+    }
+}
+
+/*
+ * The normal is a x b + b x c + c x a. With the corners off by `stray` each it is off by up to stray times the sides' sum, which is no more than the root of
+ * three times their squares' sum, and by twice the area of a triangle in a sphere of that radius: no more than 3 sqrt(3)/2 stray^2. Rounding adds far
+ * less than 1e-9 of those squares.
+ */
+static inline lane_mask four_sides(const struct lanes3 from[3], const struct lanes3 to[3], lanes stray)
+{
+    static const double length[SIDES] = {1,      1,      1,      1.4143, 1.4143, 1.4143, 1.4143,
+                                         1.4143, 1.4143, 1.7321, 1.7321, 1.7321, 1.7321};
+    lanes least[SIDES], most[SIDES], squares;
+    span_sides(from, to, least, most, &squares);
+    const lanes slack = stray * lanes_sqrt(3 * squares) + 2.6 * stray * stray + 1e-9 * squares;
+    lane_mask bits = {0};
+    for (int i = 0; i < SIDES; i++) {
+        const int64_t front = (int64_t)1 << i, back = (int64_t)1 << (i + SIDES);
+        bits |= ((least[i] > length[i] * slack) & front) | ((most[i] < -length[i] * slack) & back);
+    }
+    return bits;
+}
+
+static void sides(const struct contact_ways *ways, uint32_t (*triangle_point)[3], const uint32_t *triangles,
+                  uint32_t count, uint32_t *sides)
+{
+    const row *from = (const row *)ways->from, *to = (const row *)ways->to;
+    for (uint32_t i = 0; i < count; i += 4) {
+        const uint32_t some = count - i < 4 ? count - i : 4;
+        struct lanes3 x[3], y[3];
+        lanes stray = {0};
+        for (int k = 0; k < 3; k++) {
+            row at[4], end[4];
+            for (uint32_t j = 0; j < 4; j++) {
+                const uint32_t p = triangle_point[triangles[i + (j < some ? j : 0)]][k];
+                at[j] = from[p];
+                end[j] = to[p];
+                stray[j] = fmax(stray[j], (double)ways->reach[p]);
+            }
+            x[k] = lanes_of_rows(at);
+            y[k] = lanes_of_rows(end);
+        }
+        const lane_mask bits = four_sides(x, y, stray);
+        for (uint32_t j = 0; j < some; j++)
+            sides[triangles[i + j]] = (uint32_t)bits[j];
+    }
+}
+
 extern const struct contact_kernels SIM_CONTACT;
-const struct contact_kernels SIM_CONTACT = {apart};
+const struct contact_kernels SIM_CONTACT = {apart, sides};

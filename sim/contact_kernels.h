@@ -13,6 +13,13 @@ struct contact_flock {
     double gone;                 /* the first places are so far on the way from `from` to `to` */
 };
 
+/* Where the points go, how far each may stray from that, and how much room is wanted around it. */
+struct contact_ways {
+    double (*from)[4], (*to)[4]; /* [point_count] */
+    const float *reach;          /* [point_count] */
+    double room;
+};
+
 struct contact_kernels {
     /*
      * apart[i][0] and [1] become how far pair i is apart at the first places and at the last, along the direction in which its features are nearest at the
@@ -20,6 +27,10 @@ struct contact_kernels {
      */
     void (*apart)(const struct contact_flock *flock, uint32_t (*points)[4], uint32_t count,
                   double (*apart)[2]);
+
+    /* sides[t] becomes, for `count` of the triangles, a bit for each of 26 directions that its normal looks to all the way, whatever its points stray. */
+    void (*sides)(const struct contact_ways *ways, uint32_t (*triangle_point)[3], const uint32_t *triangles,
+                  uint32_t count, uint32_t *sides);
 };
 
 #endif

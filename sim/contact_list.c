@@ -24,20 +24,26 @@ static double choose_reach(const struct sim *sim)
     return least / (!memory->is_awake ? 10 : memory->pairs < 2 * (uint64_t)sim->point_count ? 14 : 24);
 }
 
+/* What is found again for this share of all points costs about as much as a list. While skins are near each other, lists are made for so many steps that it is
+ * a part of that; where it is as much, the list is given up. */
+enum { AGAIN_LITTLE = 64, AGAIN_MUCH = 24, AGAIN_MOST = 10 };
+
 /* As many steps as the last list held for; more where it came to its end with room to spare, fewer where too much was found again. */
 static uint64_t choose_horizon(const struct sim *sim)
 {
-    enum { HORIZON_MAX = 1024 };
+    enum { HORIZON_FIRST = 16, HORIZON_MAX = 1024 };
     const struct contact_memory *memory = &sim->contact->memory;
     const uint64_t held = sim->steps - memory->made_in, horizon = memory->horizon;
     if (memory->made == 0 || held == 0)
         return 1;
+    if (memory->made == 1) /* was of points at rest */
+        return HORIZON_FIRST;
     if (held < horizon || horizon == 0)
         return held;
     if (memory->used > 0.5 && !memory->is_awake)
         return horizon;
-    if (memory->is_awake && memory->again > sim->point_count / 32)
-        return memory->again > sim->point_count / 16 ? horizon - horizon / 5 : horizon;
+    if (memory->is_awake && memory->again > sim->point_count / AGAIN_LITTLE)
+        return memory->again > sim->point_count / AGAIN_MUCH ? horizon - horizon / 5 : horizon;
     const uint64_t more = memory->used < 0.2 && !memory->is_awake ? 2 * horizon : horizon + (horizon + 3) / 4;
     return more < HORIZON_MAX ? more : HORIZON_MAX;
 }
@@ -67,7 +73,8 @@ static inline float square_above(double square)
 }
 
 struct laying {
-    double steps, held; /* of the list to be made; of the one before, 0: there was none */
+    double steps,
+        held; /* of the list to be made; of the one before, 0: there was none, or nothing moved yet */
 };
 
 /* A point that is drawn on evenly, by a x t^2/2, is least far from a straight line to this share of where it will be: by .17 of that. */
@@ -115,7 +122,7 @@ static enum status make(struct sim *sim, uint64_t horizon, struct error *err)
 {
     struct contact *c = sim->contact;
     struct laying job = {(double)horizon, 0};
-    if (c->memory.made > 0)
+    if (c->memory.made > 1)
         job.held = (double)(sim->steps - c->memory.made_in);
     c->memory.horizon = horizon;
     c->memory.made_in = sim->steps;
@@ -284,7 +291,7 @@ static enum status mend(struct sim *sim, const struct watch *w, struct error *er
     struct contact *c = sim->contact;
     const struct watch began = watch_of(c, &c->memory.began, contact_list_gone_before(sim));
     c->memory.again += c->again_count;
-    if (!c->memory.is_awake || c->memory.again > sim->point_count / 8)
+    if (!c->memory.is_awake || c->memory.again > sim->point_count / AGAIN_MOST)
         return contact_list_make(sim, err);
     for (uint32_t i = 0; i < c->again_count; i++)
         lay_again(sim, w, &began, c->again[i]);

@@ -57,7 +57,7 @@ static void list_taken(const struct finder *f, struct contact_taken *taken, enum
     const struct contact_flock flock = {kind, c->from, c->to, f->gone};
     const int first = kind == CCD_POINT_TRIANGLE ? 1 : 2;
     double apart[CONTACT_TAKEN][2];
-    c->kernels->apart(&flock, taken->point[kind], taken->count[kind], apart);
+    c->tree.kernels->apart(&flock, taken->point[kind], taken->count[kind], apart);
     for (uint32_t i = 0; i < taken->count[kind]; i++) {
         const uint32_t *p = taken->point[kind][i];
         const double room = reach_of(c, p, first) + reach_of(c, p + first, 4 - first) + c->thickness;

@@ -117,7 +117,7 @@ static void look_closely(struct sieve *sieve, enum ccd_kind kind)
     struct contact *c = sim->contact;
     struct contact_flock flock = {kind, sim->before, sim->position, 0};
     double apart[PAIRS_AT_ONCE][2];
-    c->kernels->apart(&flock, sieve->point[kind], sieve->count[kind], apart);
+    c->tree.kernels->apart(&flock, sieve->point[kind], sieve->count[kind], apart);
     for (uint32_t i = 0; i < sieve->count[kind]; i++) {
         struct approach a;
         if (!is_clear(c, apart[i]) && approaches(sim, &c->pairs[sieve->pair[kind][i]], &a))

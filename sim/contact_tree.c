@@ -182,6 +182,7 @@ enum status contact_tree_open(struct contact_tree *tree, struct sim *sim, struct
     tree->edge_box = sim_table(sim, sim->edge_count, sizeof *tree->edge_box);
     tree->point_taken = sim_table(sim, sim->point_count, 1);
     tree->edge_taken = sim_table(sim, sim->edge_count, 1);
+    tree->side = sim_table(sim, triangles, sizeof *tree->side);
     tree->box = sim_table(sim, triangles, sizeof *tree->box);
     tree->point = sim_table(sim, sim->point_count, sizeof *tree->point);
     tree->root = sim_table(sim, sim->balloon_count, sizeof *tree->root);
@@ -193,8 +194,8 @@ enum status contact_tree_open(struct contact_tree *tree, struct sim *sim, struct
     m.inside = array_new(triangles, sizeof *m.inside);
     const bool room = tree->nodes && tree->order && tree->leaf && tree->beside && tree->leaves &&
                       tree->leaf_point && tree->leaf_edge && tree->edge_box && tree->point_taken &&
-                      tree->edge_taken && tree->box && tree->point && tree->root && tree->jobs && tree->fit &&
-                      m.middle && m.of_edge && m.parent && m.inside;
+                      tree->edge_taken && tree->side && tree->box && tree->point && tree->root &&
+                      tree->jobs && tree->fit && m.middle && m.of_edge && m.parent && m.inside;
     if (room) {
         make_all(&m);
         find_fits(tree, sim->triangle_count);
@@ -218,6 +219,7 @@ void contact_tree_close(struct contact_tree *tree)
     free(tree->edge_box);
     free(tree->point_taken);
     free(tree->edge_taken);
+    free(tree->side);
     free(tree->root);
     free(tree->box);
     free(tree->point);

@@ -17,6 +17,7 @@
 #define SIM_CONTACT_TREE_H
 
 #include "sim/contact_box.h"
+#include "sim/contact_kernels.h"
 #include "sim/sim.h"
 
 enum { CONTACT_JOBS = 4096 }; /* that a search is divided into at the most */
@@ -57,8 +58,10 @@ struct contact_tree {
     struct contact_box *edge_box;            /* [edge_count] in leaf_edge's order; owned */
     unsigned char *point_taken, *edge_taken; /* [point_count], [edge_count] for finding that; owned */
     struct contact_box *box;                 /* [triangle_count] of the triangles, in order's order; owned */
-    struct contact_box *point;               /* [point_count] of each point's way; owned */
-    struct contact_job *jobs;                /* [CONTACT_JOBS] two nodes, or one with itself; owned */
+    uint32_t *side; /* [triangle_count] to which sides each looks (contact_kernels.h); owned */
+    const struct contact_kernels *kernels;
+    struct contact_box *point; /* [point_count] of each point's way; owned */
+    struct contact_job *jobs;  /* [CONTACT_JOBS] two nodes, or one with itself; owned */
     uint32_t job_count;
     uint32_t *fit; /* [fit_count] nodes that are fitted on their own, with all below; owned */
     uint32_t fit_count;
@@ -66,13 +69,6 @@ struct contact_tree {
 
 struct contact_job {
     uint32_t a, b;
-};
-
-/* Where the points go, how far each may stray from that, and how much room is wanted around it. */
-struct contact_ways {
-    double (*from)[4], (*to)[4]; /* [point_count] */
-    const float *reach;          /* [point_count]; NULL: not at all */
-    double room;
 };
 
 /* Errors: STATUS_NO_MEMORY; close it all the same. */

@@ -139,7 +139,7 @@ static enum status check_apart(struct sim *sim, struct error *err)
     struct contact *c = sim->contact;
     struct crossings crossings = {.sim = sim};
     contact_tree_share(&c->tree, sim);
-    contact_tree_fit(&c->tree, sim, &(struct contact_ways){sim->position, sim->position, NULL, 0});
+    contact_tree_fit(&c->tree, sim, &(struct contact_ways){sim->position, sim->position, c->reach, 0});
     contact_tree_pairs(&c->tree, sim, cross_leaves, &crossings);
     if (crossings.found == 0)
         return STATUS_OK;
@@ -163,7 +163,7 @@ static enum status open(struct sim *sim, struct sim_balloon *balloon, struct err
     const struct scene_contact *given = &sim->scene->contact;
     c->thickness = given->thickness > 0 ? given->thickness : least_edge(sim) / 10;
     c->friction = given->friction;
-    c->kernels = find_kernels();
+    c->tree.kernels = find_kernels();
     c->shared_broken = UINT32_MAX;
     if (!allocate(sim, c))
         return error_no_memory(err, "contact");
