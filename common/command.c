@@ -47,9 +47,11 @@ void command_note(const char *format, ...)
         return;
     va_list arguments;
     va_start(arguments, format);
+    flockfile(stderr); /* the thread that watches over long work has its own to say */
     fprintf(stderr, "%s: ", command_name);
     vfprintf(stderr, format, arguments);
     fputc('\n', stderr);
+    funlockfile(stderr);
     va_end(arguments);
 }
 
