@@ -31,7 +31,7 @@ enum { AGAIN_LITTLE = 64, AGAIN_MUCH = 24, AGAIN_MOST = 10 };
 /* As many steps as the last list held for; more where it came to its end with room to spare, fewer where too much was found again. */
 static uint64_t choose_horizon(const struct sim *sim)
 {
-    enum { HORIZON_FIRST = 16, HORIZON_MAX = 1024 };
+    enum { HORIZON_FIRST = 4, HORIZON_MAX = 1024 };
     const struct contact_memory *memory = &sim->contact->memory;
     const uint64_t held = sim->steps - memory->made_in, horizon = memory->horizon;
     if (memory->made == 0 || held == 0)
