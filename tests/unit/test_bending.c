@@ -1,5 +1,6 @@
 /* Hinges: forces against their energy, derivatives against forces, what they keep, and what ends them. */
 #include "books.h"
+#include "common/vec3.h"
 #include "differences.h"
 #include "sim/bending_kernels.h"
 #include "sim/guard.h"
@@ -126,6 +127,44 @@ static void a_balloon_as_it_was_meshed_is_not_bent(void **state)
     assert_near(largest(b.sim.force, b.sim.point_count), 0, 1e-14);
     assert_near(effects_energy(&b.sim), 0, 1e-25); /* squares of roundings */
     close_balloon(&b);
+}
+
+/* The sum of squares of the angle's gradients at most, over that at rest, from the formulas of bending.h. */
+static double steepness(const struct sim *sim, uint32_t hinge)
+{
+    const struct bending *h = sim->balloons[0].bending;
+    const uint32_t *p = h->point[hinge];
+    double e[3], square, sum = 0;
+    vec3_sub(sim->position[p[1]], sim->position[p[0]], e);
+    square = vec3_dot(e, e);
+    for (int k = 2; k < 4; k++) {
+        double d[3], n[3];
+        vec3_sub(sim->position[p[k]], sim->position[p[0]], d);
+        vec3_cross(e, d, n);
+        const double along = vec3_dot(d, e) / square;
+        sum += (1 + 2 * along * along + 2 * (1 - along) * (1 - along)) * square / vec3_dot(n, n);
+    }
+    return sum * h->rest[3][hinge];
+}
+
+/* The passes hand on two numbers in the room of one: each to 2^-20 = 1e-6, and what they are taken from is up to six times what is left. */
+static void the_guard_goes_by_the_steepest_hinge(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        struct balloon b;
+        double steepest = 0;
+        open_balloon(&b, 2, HINGES());
+        deform(&b.sim, shapes[k].factor, shapes[k].size);
+        const struct bending_view view = bending_look(&b.sim, b.sim.balloons);
+        for (uint32_t e = 0; e < view.count; e++)
+            if (bending_holds(&view, e))
+                steepest = fmax(steepest, steepness(&b.sim, e));
+        sim_forces(&b.sim);
+        assert_true(steepest > 0.1);
+        assert_near(b.sim.balloons[0].bending->range[0], steepest, 1e-5 * steepest);
+        close_balloon(&b);
+    }
 }
 
 /* The guard's bound, found at rest and watched from then on, keeps crumpled skin from gaining energy, but for the
@@ -327,6 +366,7 @@ int main(void)
         cmocka_unit_test(products_are_the_differences_of_the_forces),
         cmocka_unit_test(hinges_push_and_turn_nothing_as_a_whole),
         cmocka_unit_test(a_balloon_as_it_was_meshed_is_not_bent),
+        cmocka_unit_test(the_guard_goes_by_the_steepest_hinge),
         cmocka_unit_test(the_bound_is_above_the_stiffest_mode),
         cmocka_unit_test(the_guards_bound_holds_for_hinges),
         cmocka_unit_test(a_block_of_no_stiffness_changes_no_bit),
