@@ -35,9 +35,8 @@ static struct render_skin skin_of(const struct scene *scene)
 }
 
 /* Frame i of the run: the sphere swells, its skin thins from opaque to 0.4 and begins to shine. */
-static void draw(struct scene *scene, int i)
+static void pose(struct scene *scene, int i)
 {
-    struct error err;
     double part = (double)i / (FRAMES - 1);
     for (uint32_t p = 0; p < scene->mesh.point_count; p++)
         for (int k = 0; k < 3; k++)
@@ -47,6 +46,12 @@ static void draw(struct scene *scene, int i)
         scene->shininess[t] = (float)(100 * part);
         scene->stretch[t] = (float)(1 + 4 * part);
     }
+}
+
+static void draw(struct scene *scene, int i)
+{
+    struct error err;
+    pose(scene, i);
     const struct render_skin skin = skin_of(scene);
     bench_check(render_draw(scene->render, &scene->view, &skin, 1, &scene->image, &err), &err);
 }
@@ -174,7 +179,7 @@ static void share_of_sorting(struct scene *scene, const char *style)
     const double sorted = draw_ms(scene).process;
     const int count = camera_eyes(&scene->view, eyes);
     for (int i = 0; i < SAMPLES; i++) {
-        draw(scene, i * FRAMES / SAMPLES);
+        pose(scene, i * FRAMES / SAMPLES);
         scene->view.order = RENDER_NONE; /* sorted below */
         bench_check(geometry_build(&geometry, &scene->view, &skin, 1, NULL, 0, &err), &err);
         scene->view.order = RENDER_SORT;
