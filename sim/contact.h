@@ -118,11 +118,11 @@ double contact_list_gone_before(const struct sim *sim);
 /* Where four points are. */
 void contact_gather(double (*x)[4], const uint32_t points[4], double places[4][3]);
 
-/* contact_solve.c: finds the pairs that touch, in an order of their own: among all, or (and not in one zone, where zones is true) among those of the
+/* contact_look.c: finds the pairs that touch, in an order of their own: among all, or (and not in one zone, where zones is true) among those of the
  * points in c->moved. True if there are any. */
 bool contact_look(struct sim *sim);
 bool contact_look_at_moved(struct sim *sim, bool zones);
-/* c->moved: from now on nothing; and a point. */
+/* contact_solve.c. c->moved: from now on nothing; and a point. */
 void contact_rest(struct contact *c);
 void contact_move(struct contact *c, uint32_t point);
 /* The whole: after a step. */

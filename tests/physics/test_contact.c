@@ -1,66 +1,7 @@
 /* Skins that keep apart: against a look at all pairs, at the end of every step of scenes that fold, squeeze and collide. */
-#include "../unit/balloon.h"
-#include "common/random.h"
 #include "crossings.h"
 #include "sim/contact.h"
-
-/* One or two balloons (the second NULL), icospheres of this level. */
-struct scene_of_two {
-    struct scene scene;
-    struct mesh mesh[2];
-    struct sim sim;
-};
-
-static void open_scene(struct scene_of_two *s, unsigned level, unsigned workers, const char *const *changes)
-{
-    struct error err = {0};
-    *s = (struct scene_of_two){0};
-    assert_ok(scene_from_mesh("sphere", &s->scene, &err), &err);
-    for (; *changes; changes++)
-        assert_ok(scene_set(&s->scene, *changes, &err), &err);
-    assert_ok(scene_check(&s->scene, &err), &err);
-    for (size_t i = 0; i < s->scene.balloon_count; i++)
-        shape_icosphere(level, &s->mesh[i]);
-    assert_ok(sim_open(&s->sim, &s->scene, s->mesh, workers, &err), &err);
-}
-
-static void close_scene(struct scene_of_two *s)
-{
-    sim_clear(&s->sim);
-    for (int i = 0; i < 2; i++)
-        mesh_clear(&s->mesh[i]);
-    scene_clear(&s->scene);
-}
-
-/* Sucked empty, with a swirl that breaks its symmetry. */
-#define FOLDING                                                                               \
-    SETTINGS("contact.thickness=0.5", "balloons[0].pressure=-4", "balloons[0].threshold=100", \
-             "time.guard=substep", "time.step=0.0125")
-/* Thrown at each other. */
-#define COLLIDING                                                                                  \
-    SETTINGS("contact.thickness=0.5", "balloons[1].mesh=sphere", "balloons[0].position=[-60,0,0]", \
-             "balloons[1].position=[60,3,2]", "balloons[0].pressure=0", "balloons[1].pressure=0",  \
-             "balloons[0].threshold=100", "balloons[1].threshold=100", "time.guard=substep",       \
-             "time.step=0.0125")
-/* Between two boxes that leave it less room than it wants. */
-#define SQUEEZED                                                                                         \
-    SETTINGS("contact.thickness=0.5", "balloons[0].threshold=100", "balloons[0].pressure=6",             \
-             "time.guard=substep", "obstacles[0].shape=box", "obstacles[0].size=[400,40,400]",           \
-             "obstacles[0].place=[0,-70,0]", "obstacles[1].shape=box", "obstacles[1].size=[400,40,400]", \
-             "obstacles[1].place=[0,70,0]", "time.step=0.0125")
-
-static void swirl(struct sim *sim, double speed)
-{
-    for (uint32_t p = 0; p < sim->point_count; p++)
-        for (int i = 0; i < 3; i++)
-            sim->velocity[p][i] = speed * sin(sim->position[p][(i + 1) % 3] / 8 + i);
-}
-
-static void throw(struct sim * sim, double speed)
-{
-    for (uint32_t p = 0; p < sim->point_count; p++)
-        sim->velocity[p][0] = sim->position[p][0] < 0 ? speed : -speed;
-}
+#include "two_skins.h"
 
 static void check_steps(struct sim *sim, int steps)
 {
@@ -79,92 +20,6 @@ static void test_a_folding_balloon_never_crosses_itself(void **state)
     swirl(&s.sim, 3);
     check_steps(&s.sim, 200);
     assert_true(s.sim.contact->memory.wakes > 0);
-    close_scene(&s);
-}
-
-static bool is_listed(const struct contact *c, enum ccd_kind kind, const uint32_t p[4])
-{
-    bool listed = false;
-    for (uint32_t at = c->first[p[0]]; at != UINT32_MAX; at = c->next[at / 4][at % 4])
-        listed |= c->pairs[at / 4].kind == kind && isfinite(c->pairs[at / 4].distance) &&
-                  memcmp(c->pairs[at / 4].point, p, 4 * sizeof *p) == 0;
-    return listed;
-}
-
-/* Points that an edge joins. */
-static unsigned char *find_joined(const struct sim *sim)
-{
-    unsigned char *joined = calloc((size_t)sim->point_count * sim->point_count, 1);
-    for (uint32_t e = 0; e < sim->edge_count; e++) {
-        const uint32_t *p = sim->edge_point[e];
-        joined[p[0] * sim->point_count + p[1]] = joined[p[1] * sim->point_count + p[0]] = 1;
-    }
-    for (uint32_t p = 0; p < sim->point_count; p++)
-        joined[p * sim->point_count + p] = 1;
-    return joined;
-}
-
-/* Whether two features end the step nearer to each other than skins are to come. Not those that share a point or that an edge joins: they may be of
- * a patch that looks to one side, and nothing more is asked of it. */
-static bool is_near(const struct sim *sim, const unsigned char *joined, enum ccd_kind kind,
-                    const uint32_t p[4])
-{
-    const int first = kind == CCD_EDGES ? 2 : 1;
-    struct ccd_touch touch;
-    double x[4][3];
-    for (int i = 0; i < first; i++)
-        for (int j = first; j < 4; j++)
-            if (joined[p[i] * sim->point_count + p[j]])
-                return false;
-    contact_gather(sim->position, p, x);
-    for (int k = 0; k < 3; k++) /* further than an edge is long, as nearly all are */
-        if (fabs(x[0][k] - x[3][k]) > 20)
-            return false;
-    return ccd_distance(kind, x, &touch) < sim->contact->thickness;
-}
-
-/* Of all pairs that there are, those that are near and not on the list; near ones are counted. */
-static size_t near_and_unlisted(struct sim *sim, size_t *near)
-{
-    const struct contact *c = sim->contact;
-    size_t missing = 0;
-    unsigned char *joined = find_joined(sim);
-    contact_pairs_link(sim);
-    for (uint32_t q = 0; q < sim->point_count; q++)
-        for (uint32_t t = 0; t < sim->triangle_count; t++) {
-            const uint32_t *k = sim->triangle_point[t], p[4] = {q, k[0], k[1], k[2]};
-            const bool is = is_near(sim, joined, CCD_POINT_TRIANGLE, p);
-            *near += is;
-            missing += is && !is_listed(c, CCD_POINT_TRIANGLE, p);
-        }
-    for (uint32_t e = 0; e < sim->edge_count; e++)
-        for (uint32_t g = e + 1; g < sim->edge_count; g++) {
-            const uint32_t *a = sim->edge_point[e], *b = sim->edge_point[g], p[4] = {a[0], a[1], b[0], b[1]};
-            const bool is = is_near(sim, joined, CCD_EDGES, p);
-            *near += is;
-            missing += is && !is_listed(c, CCD_EDGES, p);
-        }
-    free(joined);
-    return missing;
-}
-
-/* Whatever lists, lines, strays and boxes say: all that is near is on the list, at the end of every step, while lists are made and mended. */
-static void test_the_list_has_all_that_is_near(void **state)
-{
-    (void)state;
-    struct scene_of_two s;
-    struct error err = {0};
-    size_t near = 0;
-    uint64_t mended = 0;
-    open_scene(&s, 3, 1, FOLDING);
-    swirl(&s.sim, 3);
-    for (int i = 0; i < 200; i++) {
-        assert_ok(sim_step(&s.sim, &err), &err);
-        mended += s.sim.contact->memory.again > 0;
-        if (i % 10 == 9)
-            assert_int_equal(near_and_unlisted(&s.sim, &near), 0);
-    }
-    assert_true(near > 100 && mended > 10);
     close_scene(&s);
 }
 
@@ -366,37 +221,6 @@ static void test_nothing_near_changes_no_bit_and_sleeps(void **state)
     close_scene(&without);
 }
 
-/* A point through a triangle, edge over edge, by ways of every length and tilt: whenever a fine march along the ways sees the distance fall
- * under the gap, ccd_meet() says so, and before that time. */
-static void test_a_meeting_is_never_missed(void **state)
-{
-    (void)state;
-    uint64_t random = 3;
-    int met = 0;
-    for (int i = 0; i < 20000; i++) {
-        double from[4][3], to[4][3], x[4][3];
-        struct ccd_touch touch, other;
-        const enum ccd_kind kind = i % 2 ? CCD_EDGES : CCD_POINT_TRIANGLE;
-        for (int k = 0; k < 12; k++) {
-            from[k / 3][k % 3] = random_unit(&random);
-            to[k / 3][k % 3] = i % 3 ? random_unit(&random) : from[k / 3][k % 3] + 0.2 * random_unit(&random);
-        }
-        const double gap = ccd_distance(kind, from, &touch) / 2;
-        const bool meets = ccd_meet(kind, from, to, gap, &touch);
-        double first = INFINITY;
-        for (int step = 0; step <= 200 && first > 1; step++) {
-            for (int k = 0; k < 12; k++)
-                x[k / 3][k % 3] = from[k / 3][k % 3] + step / 200.0 * (to[k / 3][k % 3] - from[k / 3][k % 3]);
-            if (ccd_distance(kind, x, &other) <= gap)
-                first = step / 200.0;
-        }
-        met += first <= 1;
-        if (first <= 1)
-            assert_true(meets && touch.time <= first);
-    }
-    assert_true(met > 1000);
-}
-
 static void test_balloons_that_cross_at_first_are_refused(void **state)
 {
     (void)state;
@@ -417,8 +241,6 @@ static void test_balloons_that_cross_at_first_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_meeting_is_never_missed),
-        cmocka_unit_test(test_the_list_has_all_that_is_near),
         cmocka_unit_test(test_a_folding_balloon_never_crosses_itself),
         cmocka_unit_test(test_without_contact_it_crosses_itself),
         cmocka_unit_test(test_a_squeezed_balloon_never_crosses_itself_nor_enters_the_boxes),

@@ -1,0 +1,256 @@
+/* Which pairs touch on their ways: of all that the list has, or of those whose points have just been pushed. */
+#include "common/threads.h"
+#include "common/vec3.h"
+#include "sim/contact_approach.h"
+
+#include <string.h>
+
+/* The middle of the skin around a point as the step begins. */
+static void middle_around(const struct sim *sim, uint32_t point, double middle[3])
+{
+    const struct contact *c = sim->contact;
+    const uint32_t begin = point ? c->star_end[point - 1] : 0;
+    double count = 0;
+    memset(middle, 0, 3 * sizeof *middle);
+    for (uint32_t s = begin; s < c->star_end[point]; s++)
+        for (int k = 0; k < 3; k++, count++)
+            for (int i = 0; i < 3; i++)
+                middle[i] += sim->before[sim->triangle_point[c->star[s]][k]][i];
+    for (int i = 0; i < 3 && count > 0; i++)
+        middle[i] /= count;
+}
+
+/* Those that begin in one place, as the two lips of a cut do, are to go apart towards where the skin of each lies. */
+static bool stays_together(const struct sim *sim, struct contact_approach *a)
+{
+    double *n = a->touch.normal, middle[3], length;
+    memset(n, 0, 3 * sizeof *n);
+    for (int i = 0; i < 4; i++) {
+        middle_around(sim, a->p[i], middle);
+        for (int k = 0; k < 3; k++)
+            n[k] += a->touch.weight[i] * middle[k];
+    }
+    length = vec3_length(n);
+    if (!(length > 0))
+        return false;
+    double apart = 0;
+    for (int k = 0; k < 3; k++) {
+        n[k] /= length;
+        for (int i = 0; i < 4; i++)
+            apart += n[k] * a->touch.weight[i] * a->to[i][k];
+    }
+    a->touch.time = a->touch.distance = a->distance = 0;
+    return apart < sim->contact->thickness / 8;
+}
+
+bool contact_approaches(const struct sim *sim, const struct contact_pair *pair, struct contact_approach *a)
+{
+    const struct contact *c = sim->contact;
+    a->p = pair->point;
+    contact_gather(sim->before, a->p, a->from);
+    contact_gather(sim->position, a->p, a->to);
+    const enum ccd_kind kind = (enum ccd_kind)pair->kind;
+    a->distance = ccd_distance(kind, a->from, &a->touch);
+    if (a->distance <= 1e-9 * c->thickness)
+        return stays_together(sim, a);
+    const double gap = fmin(a->distance, c->thickness) / 2;
+    if (ccd_apart(kind, &a->touch, a->to) > gap || a->distance - ccd_approach(kind, a->from, a->to) > gap)
+        return false;
+    return ccd_meet(kind, a->from, a->to, gap, &a->touch);
+}
+
+struct look {
+    const struct sim *sim;
+    bool zones;
+    double growth, gone[2]; /* at the step's beginning and end */
+};
+
+static inline float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+/* Whether they may be near enough at all, by what is known of their lines and of how far the points strayed:
+ * (a + b)^2 <= 2 (a^2 + b^2). Without branches, since nobody can guess. */
+static inline bool may_touch(const struct look *look, const struct contact_pair *pair)
+{
+    const struct contact *c = look->sim->contact;
+    const uint32_t *p = pair->point;
+    const float *s = c->strayed, first = s[p[0]], second = s[p[1]], high = larger(s[p[2]], s[p[3]]);
+    const bool edges = pair->kind == CCD_EDGES;
+    const double approach = (double)pair->approach, gone = look->gone[approach > 0],
+                 room = look->growth * ((double)pair->distance - gone * approach) - c->thickness / 2,
+                 squares = (double)(larger(first, edges ? second : 0) + larger(high, edges ? 0 : second));
+    return (room <= 0) | (room * room <= 2.00001 * squares);
+}
+
+/* Pairs of a kind that are worth a nearer look, some at a time. */
+enum { PAIRS_AT_ONCE = 256, POINTS_AT_ONCE = 8 };
+
+struct sieve {
+    const struct look *look;
+    uint32_t count[2];
+    uint32_t pair[2][PAIRS_AT_ONCE], point[2][PAIRS_AT_ONCE][4];
+};
+
+/* Whether a pair surely does not approach, by how far it is apart along a line. It begins no nearer than that, and to rounding no further. */
+static bool is_clear(const struct contact *c, const double apart[2])
+{
+    return apart[0] > 1e-6 * c->thickness && apart[1] > 0.500001 * fmin(apart[0], c->thickness);
+}
+
+static void look_closely(struct sieve *sieve, enum ccd_kind kind)
+{
+    const struct sim *sim = sieve->look->sim;
+    struct contact *c = sim->contact;
+    struct contact_flock flock = {kind, sim->before, sim->position, 0};
+    double apart[PAIRS_AT_ONCE][2];
+    c->tree.kernels->apart(&flock, sieve->point[kind], sieve->count[kind], apart);
+    for (uint32_t i = 0; i < sieve->count[kind]; i++) {
+        struct contact_approach a;
+        if (!is_clear(c, apart[i]) && contact_approaches(sim, &c->pairs[sieve->pair[kind][i]], &a))
+            c->hits[__atomic_fetch_add(&c->hit_count, 1, __ATOMIC_RELAXED)] = sieve->pair[kind][i];
+    }
+    sieve->count[kind] = 0;
+}
+
+static inline void take_in(struct sieve *sieve, uint32_t i)
+{
+    const struct contact_pair *pair = &sieve->look->sim->contact->pairs[i];
+    const uint32_t *p = pair->point, *zone = sieve->look->sim->contact->zone;
+    if (sieve->look->zones && zone[p[0]] == zone[p[1]] && zone[p[0]] == zone[p[2]] &&
+        zone[p[0]] == zone[p[3]])
+        return;
+    const uint32_t place = sieve->count[pair->kind]++;
+    sieve->pair[pair->kind][place] = i;
+    memcpy(sieve->point[pair->kind][place], p, 4 * sizeof *p);
+    for (int k = 0; k < 4; k++) { /* wanted soon */
+        __builtin_prefetch(sieve->look->sim->before[p[k]]);
+        __builtin_prefetch(sieve->look->sim->position[p[k]]);
+    }
+    if (place + 1 == PAIRS_AT_ONCE)
+        look_closely(sieve, (enum ccd_kind)pair->kind);
+}
+
+static void end_look(struct sieve *sieve)
+{
+    look_closely(sieve, CCD_POINT_TRIANGLE);
+    look_closely(sieve, CCD_EDGES);
+}
+
+static void begin_look(struct sieve *sieve, const struct look *look)
+{
+    sieve->look = look;
+    sieve->count[0] = sieve->count[1] = 0;
+}
+
+static void look_at_some(void *context, size_t index, unsigned worker)
+{
+    (void)worker;
+    struct sieve sieve;
+    begin_look(&sieve, context);
+    const struct contact *c = sieve.look->sim->contact;
+    const uint32_t begin = (uint32_t)index * PAIRS_AT_ONCE,
+                   end = begin + PAIRS_AT_ONCE < c->pair_count ? begin + PAIRS_AT_ONCE : c->pair_count;
+    uint32_t kept[PAIRS_AT_ONCE], count = 0;
+    for (uint32_t i = begin; i < end; i++) {
+        kept[count] = i;
+        count += may_touch(sieve.look, &c->pairs[i]);
+    }
+    for (uint32_t i = 0; i < count; i++)
+        take_in(&sieve, kept[i]);
+    end_look(&sieve);
+}
+
+/* Each pair by the first of its points that have moved. */
+static void look_at_links(void *context, size_t index, unsigned worker)
+{
+    (void)worker;
+    struct sieve sieve;
+    begin_look(&sieve, context);
+    const struct contact *c = sieve.look->sim->contact;
+    const uint32_t begin = (uint32_t)index * POINTS_AT_ONCE,
+                   end = begin + POINTS_AT_ONCE < c->moved_count ? begin + POINTS_AT_ONCE : c->moved_count;
+    for (uint32_t i = begin; i < end; i++)
+        for (uint32_t at = c->first[c->moved[i]]; at != UINT32_MAX; at = c->next[at / 4][at % 4]) {
+            const uint32_t *p = c->pairs[at / 4].point;
+            bool first = true;
+            for (uint32_t k = 0; k < at % 4; k++)
+                first &= !c->stirred[p[k]];
+            if (first && may_touch(sieve.look, &c->pairs[at / 4]))
+                take_in(&sieve, at / 4);
+        }
+    end_look(&sieve);
+}
+
+static bool is_before(const struct contact_pair *x, const struct contact_pair *y)
+{
+    if (x->kind != y->kind)
+        return x->kind < y->kind;
+    int k = 0;
+    while (k < 3 && x->point[k] == y->point[k])
+        k++;
+    return x->point[k] < y->point[k];
+}
+
+static void sift(const struct contact_pair *pairs, uint32_t *hits, uint32_t root, uint32_t count)
+{
+    for (uint32_t child; (child = 2 * root + 1) < count; root = child) {
+        if (child + 1 < count && is_before(&pairs[hits[child]], &pairs[hits[child + 1]]))
+            child++;
+        if (!is_before(&pairs[hits[root]], &pairs[hits[child]]))
+            return;
+        const uint32_t swap = hits[root];
+        hits[root] = hits[child];
+        hits[child] = swap;
+    }
+}
+
+/* Heapsort: in place. */
+static void sort_hits(struct contact *c)
+{
+    for (uint32_t i = c->hit_count / 2; i-- > 0;)
+        sift(c->pairs, c->hits, i, c->hit_count);
+    for (uint32_t i = c->hit_count; i-- > 1;) {
+        const uint32_t swap = c->hits[0];
+        c->hits[0] = c->hits[i];
+        c->hits[i] = swap;
+        sift(c->pairs, c->hits, 0, i);
+    }
+}
+
+/* What was found twice (contact_tree_pairs_opened()) is one. */
+static void drop_equal_hits(struct contact *c)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < c->hit_count; i++)
+        if (i == 0 || is_before(&c->pairs[c->hits[count - 1]], &c->pairs[c->hits[i]]))
+            c->hits[count++] = c->hits[i];
+    c->hit_count = count;
+}
+
+static bool look(struct sim *sim, bool zones, size_t count,
+                 void (*function)(void *context, size_t index, unsigned worker))
+{
+    struct contact *c = sim->contact;
+    struct look look = {sim,
+                        zones,
+                        fmin(1, fmin(c->memory.began.growth, c->motion.growth)),
+                        {contact_list_gone_before(sim), contact_list_gone(sim)}};
+    c->hit_count = 0;
+    threads_run(sim->pool, count, function, &look);
+    sort_hits(c);
+    drop_equal_hits(c);
+    return c->hit_count > 0;
+}
+
+bool contact_look(struct sim *sim)
+{
+    return look(sim, false, (sim->contact->pair_count + PAIRS_AT_ONCE - 1) / PAIRS_AT_ONCE, look_at_some);
+}
+
+bool contact_look_at_moved(struct sim *sim, bool zones)
+{
+    contact_pairs_link(sim);
+    return look(sim, zones, (sim->contact->moved_count + POINTS_AT_ONCE - 1) / POINTS_AT_ONCE, look_at_links);
+}
