@@ -48,7 +48,7 @@ static const struct cost {
     {"ground", "where points were; a look at those that are near", {4, 0, 0}, {0, 0, 0}, {0, 0, 0}},
     {"obstacles", "where points were; a look at those that are near", {4, 0, 0}, {0, 0, 0}, {0, 0, 0}},
     {"contact",
-     "950 bytes a triangle, and where points were; while nothing is near anything a look at each point, and now and then at all "
+     "1300 bytes a triangle, and where points were; while nothing is near anything a look at each point, and now and then at all "
      "triangles (folded skin takes many times that)",
      {4, 4, 0},
      {0, 0, 0},
@@ -103,6 +103,8 @@ static void write_cost(const struct effect *effect, const struct scene *scene, F
     fprintf(stream, "\tneeds %s; adds to a step: ", cost->needs);
     if (fabs(share) < 0.005)
         fputs("none", stream);
+    else if (share < 0)
+        fprintf(stream, "none; it takes %.0f %% off, in place of the paper's pressure", -100 * share);
     else
         fprintf(stream, "%.0f %%", 100 * share);
 }
