@@ -81,14 +81,20 @@ static enum status collect_points(struct render *render, const struct render_sce
     return STATUS_OK;
 }
 
-/* Sorted triangles lie about anywhere in the picture: cells bring neighbours together again. */
+/* Sorted triangles lie about anywhere in the picture: cells bring neighbours together again. Where a window is drawn into, each change of
+ * the scissor costs more than that gains: 7 pictures a second of 100,000 triangles against 10. */
+static bool uses_cells(const struct render *render, const struct render_view *view)
+{
+    return !render->window && cells_are_worth_it(&render->geometry, view);
+}
+
 static enum status build_cells(struct render *render, const struct render_view *view, struct error *err)
 {
     struct camera_eye eyes[2];
     enum status status = STATUS_OK;
     const int count = camera_eyes(view, eyes);
     render->cells[1].indices.count = 0; /* of an eye that may not be there */
-    for (int i = 0; i < count && cells_are_worth_it(&render->geometry, view) && !status; i++)
+    for (int i = 0; i < count && uses_cells(render, view) && !status; i++)
         status = cells_build(&render->cells[i], &render->geometry, &eyes[i], err);
     return status;
 }
@@ -115,7 +121,7 @@ static enum status prepare(struct render *render, const struct render_view *view
         status = overlay_upload(&render->overlay, &render->gl, &render->quads, view, scene, err);
     if (!status)
         draw_upload(&render->draw, &render->gl, &render->geometry,
-                    cells_are_worth_it(&render->geometry, view) ? render->cells : NULL);
+                    uses_cells(render, view) ? render->cells : NULL);
     return status;
 }
 
