@@ -57,6 +57,10 @@ static void on_display(void)
 {
     if (the_window->events->draw)
         the_window->events->draw(the_window->self);
+    if (the_window->events->meanwhile) {
+        the_window->gl.Flush();
+        the_window->events->meanwhile(the_window->self);
+    }
     glutSwapBuffers();
     end_event();
 }

@@ -49,6 +49,7 @@
     X(Enable, ENABLE)                                                 \
     X(EnableVertexAttribArray, ENABLEVERTEXATTRIBARRAY)               \
     X(EndQuery, ENDQUERY)                                             \
+    X(Flush, FLUSH)                                                   \
     X(FramebufferRenderbuffer, FRAMEBUFFERRENDERBUFFER)               \
     X(FramebufferTexture2D, FRAMEBUFFERTEXTURE2D)                     \
     X(GenBuffers, GENBUFFERS)                                         \

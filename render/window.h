@@ -52,7 +52,8 @@ enum window_key {
 
 /* What the program is called for; NULL where it does not care. `modifiers` are as above. */
 struct window_events {
-    void (*draw)(void *self); /* show the picture, with render_show(); the window swaps it in */
+    void (*draw)(void *self);      /* show the picture, with render_show(); the window swaps it in */
+    void (*meanwhile)(void *self); /* after draw(), while the picture is being made: no OpenGL */
     void (*resize)(void *self, int width, int height); /* once before the first draw() too */
     void (*key)(void *self, int key, int modifiers);   /* pressed, or repeated while held */
     void (*button)(void *self, enum window_button button, bool pressed, int x, int y, int modifiers);

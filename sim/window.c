@@ -254,21 +254,34 @@ static bool interrupted(struct app *app)
     return true;
 }
 
-static void tick(void *self)
+/* The steps of the time that has passed between two ticks. */
+static void run(void *self)
 {
     struct app *app = self;
     struct error err = {0};
-    const double now = app_seconds(), passed = fmin(now - app->clock, longest_tick);
     const uint64_t steps = app->live.sim->steps;
-    app->clock = now;
-    if (interrupted(app))
+    const double due = app->due;
+    app->due = 0;
+    if (due == 0 || app->live.paused)
         return;
-    enum status status = live_run(&app->live, passed, fmax(step_seconds, step_share * app->drawing), &err);
+    enum status status = live_run(&app->live, due, fmax(step_seconds, step_share * app->drawing), &err);
     if (!status && app->live.sim->steps != steps)
         status = ask_estimate(app, &err);
     if (app->live.sim->steps != steps)
         app->stale = true;
     say_unless_ok(app, status, &err);
+}
+
+/* Steps are taken while a picture is being drawn, of the state before them; where none is drawn, as in a window that is hidden, here. */
+static void tick(void *self)
+{
+    struct app *app = self;
+    const double now = app_seconds();
+    run(app);
+    app->due = fmin(now - app->clock, longest_tick);
+    app->clock = now;
+    if (interrupted(app))
+        return;
     app_record_frame(app);
     window_redraw(app->window);
     schedule(app);
@@ -327,6 +340,7 @@ static void use_quad(struct app *app)
 static enum status open_window(struct app *app, struct error *err)
 {
     static const struct window_events events = {.draw = drawn,
+                                                .meanwhile = run,
                                                 .resize = resized,
                                                 .key = app_key,
                                                 .button = pressed,

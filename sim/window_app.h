@@ -63,6 +63,7 @@ struct app {
     struct panel_box pressed_eye; /* and in which eye's picture */
 
     double clock;       /* app_seconds() at the last tick */
+    double due;         /* s of it that steps have not been taken for */
     double drawing;     /* seconds that the last picture took */
     double frames_rate; /* pictures a second, of late */
     double counting;    /* app_seconds() since when pictures are counted for that */
