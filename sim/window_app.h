@@ -1,4 +1,4 @@
-/* Inside of the live window: what its files share. window.c answers clock and mouse, window_keys.c the keys; window_draw.c shows the
+/* Inside of the live window: what its files share. window.c answers the clock, window_mouse.c and window_keys.c the hand; window_draw.c shows the
  * skin, window_panel.c what lies over it, window_text.c what there is to be read; window_record.c films. */
 #ifndef SIM_WINDOW_APP_H
 #define SIM_WINDOW_APP_H
@@ -114,6 +114,11 @@ struct panel_box app_eye(const struct app *app);
 /* window_keys.c: a key was pressed (struct window_events). */
 void app_key(void *self, int key, int modifiers);
 extern const char app_help[];
+
+/* window_mouse.c: what the mouse did (struct window_events). */
+void app_moved(void *self, int x, int y, int modifiers);
+void app_pressed(void *self, enum window_button button, bool down, int x, int y, int modifiers);
+void app_wheel(void *self, int steps, int x, int y, int modifiers);
 
 /* window_draw.c: the picture as it is drawn and aimed at: halves are alike. */
 struct render_view app_drawn_view(const struct app *app);
