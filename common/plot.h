@@ -45,6 +45,7 @@ struct plot_series {
 struct plot_panel {
     const char *title, *x_label, *y_label; /* NULL: none */
     bool log_x, log_y;
+    bool from_zero, whole; /* a linear y begins at 0 where nothing is below; has tics at whole numbers only */
     const struct plot_series *series; /* [series_count]; bars and others do not mix in a panel */
     size_t series_count;
     bool key_outside; /* right of the axes: for many series */

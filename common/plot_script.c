@@ -75,6 +75,30 @@ static double bar_width(const struct plot_panel *panel)
     return 0.8 / (double)panel->series_count;
 }
 
+static void find_range(const struct plot_panel *panel, double *low, double *high)
+{
+    *low = INFINITY;
+    *high = -INFINITY;
+    for (size_t i = 0; i < panel->series_count; i++)
+        for (size_t k = 0; k < panel->series[i].count; k++)
+            if (isfinite(panel->series[i].y[k])) {
+                *low = fmin(*low, panel->series[i].y[k]);
+                *high = fmax(*high, panel->series[i].y[k]);
+            }
+}
+
+static void put_range(FILE *script, const struct plot_panel *panel)
+{
+    enum { WHOLE = 9 }; /* up to here gnuplot would mark halves too */
+    double low, high;
+    find_range(panel, &low, &high);
+    fputs(!panel->from_zero || low < 0 ? "set yrange [*:*]\n"
+          : high > 0                   ? "set yrange [0:*]\n"
+                                       : "set yrange [0:1]\n",
+          script);
+    fputs(panel->whole && high < WHOLE ? "set ytics 1\n" : "set ytics autofreq\n", script);
+}
+
 static void put_axes(FILE *script, const struct plot_panel *panel)
 {
     put_setting(script, "title", panel->title);
@@ -87,6 +111,7 @@ static void put_axes(FILE *script, const struct plot_panel *panel)
                             : "unset logscale %c\nset format %c '%%g'\n",
                 axis, axis);
     }
+    put_range(script, panel);
     /* Labels beside points need room; the lines of a time series end where the time does. */
     bool lines = panel->series_count && panel->series[0].style == PLOT_LINE;
     fputs(lines ? "set autoscale xfix\nset offsets 0, 0, graph 0.05, graph 0.02\n"

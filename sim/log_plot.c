@@ -102,13 +102,6 @@ static struct plot_series curve(const struct table *table, const char *name, siz
                                 .count = table->rows};
 }
 
-static struct plot_panel panel(const char *title, const char *y_label, const struct plot_series *series,
-                               size_t count)
-{
-    return (struct plot_panel){
-        .title = title, .x_label = "time", .y_label = y_label, .series = series, .series_count = count};
-}
-
 static enum status draw(const struct table *table, const char *title, const char *path, struct error *err)
 {
     bool gas = false;
@@ -119,8 +112,10 @@ static enum status draw(const struct table *table, const char *title, const char
     const struct plot_series energy[] = {curve(table, "kinetic", KINETIC), curve(table, "elastic", ELASTIC),
                                          curve(table, "gas", GAS)};
     const struct plot_panel panels[] = {
-        panel("Pressure", "gauge pressure", &pressure, 1), panel("Radius", "mean radius", &radius, 1),
-        panel("Energy", "energy", energy, gas ? 3 : 2), panel("Pieces", "pieces", &pieces, 1)};
+        {"Pressure", "time", "gauge pressure", .from_zero = true, .series = &pressure, .series_count = 1},
+        {"Radius", "time", "mean radius", .series = &radius, .series_count = 1},
+        {"Energy", "time", "energy", .from_zero = true, .series = energy, .series_count = gas ? 3 : 2},
+        {"Pieces", "time", "pieces", .from_zero = true, .whole = true, .series = &pieces, .series_count = 1}};
     return plot_save(&(struct plot){.title = title, .panels = panels, .panel_count = 4, .columns = 2}, path,
                      err);
 }

@@ -52,6 +52,25 @@ static void every_style_is_drawn_as_png_and_svg_whatever_the_points_and_texts(vo
     }
 }
 
+static void a_count_is_drawn_from_nothing_up_in_whole_steps(void **state)
+{
+    (void)state;
+    if (!installed())
+        return;
+    struct error err = {0};
+    struct bytes bytes = {0};
+    const double time[] = {10, 20}, pieces[] = {1, 2};
+    const struct plot_series series = {.style = PLOT_LINE, .x = time, .y = pieces, .count = 2};
+    const struct plot_panel panel = {.from_zero = true, .whole = true, .series = &series, .series_count = 1};
+    assert_ok(plot_save(&(struct plot){.panels = &panel, .panel_count = 1, .columns = 1}, "a.svg", &err),
+              &err);
+    assert_ok(file_read("a.svg", &bytes, &err), &err);
+    assert_non_null(strstr((const char *)bytes.data, ">0<"));
+    assert_non_null(strstr((const char *)bytes.data, ">1<"));
+    assert_null(strstr((const char *)bytes.data, "1.5<"));
+    bytes_clear(&bytes);
+}
+
 static void without_gnuplot_the_message_says_how_to_get_it_and_the_old_file_stays(void **state)
 {
     (void)state;
@@ -84,6 +103,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_style_is_drawn_as_png_and_svg_whatever_the_points_and_texts),
+        cmocka_unit_test(a_count_is_drawn_from_nothing_up_in_whole_steps),
         cmocka_unit_test(without_gnuplot_the_message_says_how_to_get_it_and_the_old_file_stays),
         cmocka_unit_test(other_extensions_are_refused),
     };
