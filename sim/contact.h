@@ -49,7 +49,7 @@ struct contact {
      * other touches first. */
     double (*from)[4], (*to)[4]; /* [point_count] owned */
     float *reach; /* [point_count] how far a point may be from its line while the list holds for it; owned */
-    float *strayed;    /* [point_count] the largest square of how far it was; owned */
+    float *off;   /* [point_count] the farthest that it was from it; owned */
     float (*speed)[4]; /* [point_count] when the list was made, a step; owned */
     struct contact_memory {
         uint64_t made, found;        /* lists made so far; and how often some of one was found */
@@ -77,10 +77,15 @@ struct contact {
     struct contact_taken *taken; /* [workers] owned */
     struct contact_pair *pairs;  /* [pair_capacity] owned */
     uint32_t pair_count, pair_capacity;
-    uint32_t linked;     /* pairs that have links: */
-    uint32_t *first;     /* [point_count] 4 x pair + place of its first; UINT32_MAX: none; owned */
-    uint32_t (*next)[4]; /* [pair_capacity] likewise the next after each place; owned */
-    uint32_t *hits;      /* [pair_capacity] pairs that touch, by the last look; owned */
+    /* Which pairs a point is in (contact_links.h): of the first so many by an index, of those after them by chains. */
+    uint32_t indexed, linked;
+    uint32_t *link;     /* [4 pair_capacity] owned */
+    uint32_t *link_end; /* [point_count] where those of p in the index end, and those of p + 1 begin; owned */
+    uint32_t *chain;    /* [point_count] the first in its chain; UINT32_MAX: none; owned */
+    /* A pair sleeps while it cannot touch whatever the points are off within their bounds, which leave room for pushes. */
+    unsigned char *awake; /* [pair_capacity] 0: it sleeps; owned */
+    float *bound;         /* [point_count] since the last look at all pairs; owned */
+    uint32_t *hits;       /* [pair_capacity] pairs that touch, by the last look; owned */
     uint32_t hit_count;
     uint32_t *moved; /* [point_count] points moved since the last look, in order; owned */
     uint32_t moved_count;
@@ -103,8 +108,6 @@ struct contact {
  * in place of those that are known. STATUS_RANGE when more is near than there is room for. */
 enum status contact_pairs_find(struct sim *sim, struct error *err);
 enum status contact_pairs_find_again(struct sim *sim, struct error *err);
-/* Links all pairs to their points: c->first and c->next. */
-void contact_pairs_link(struct sim *sim);
 
 /* contact_list.c: makes the list anew, for this step and those that would follow on the same lines. Errors: those of finding. */
 enum status contact_list_make(struct sim *sim, struct error *err);
@@ -122,6 +125,8 @@ void contact_gather(double (*x)[4], const uint32_t points[4], double places[4][3
  * points in c->moved. True if there are any. */
 bool contact_look(struct sim *sim);
 bool contact_look_at_moved(struct sim *sim, bool zones);
+/* Wakes the pairs of a point that is off further than its bound. */
+void contact_wake(struct sim *sim, uint32_t point);
 /* contact_solve.c. c->moved: from now on nothing; and a point. */
 void contact_rest(struct contact *c);
 void contact_move(struct contact *c, uint32_t point);

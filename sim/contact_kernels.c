@@ -79,10 +79,14 @@ static inline lanes apart_along(const struct four *f, enum ccd_kind kind, struct
     return kind == CCD_EDGES ? lanes_min(x0, x1) - high : x0 - lanes_max(x1, high);
 }
 
-static inline void four_apart(const struct contact_flock *flock, enum ccd_kind kind,
-                              const uint32_t (*points)[4], double (*apart)[2])
-{
+/* Four pairs where they are at first and at last. */
+struct four_ways {
     struct four first, last;
+};
+
+static inline struct four_ways gather(const struct contact_flock *flock, const uint32_t (*points)[4])
+{
+    struct four_ways f;
     const row *from = (const row *)flock->from, *to = (const row *)flock->to;
     for (int k = 0; k < 4; k++) {
         row at[4], end[4];
@@ -91,30 +95,84 @@ static inline void four_apart(const struct contact_flock *flock, enum ccd_kind k
             at[i] = from[points[i][k]];
             at[i] += flock->gone * (end[i] - at[i]);
         }
-        first.x[k] = lanes_of_rows(at);
-        last.x[k] = lanes_of_rows(end);
+        f.first.x[k] = lanes_of_rows(at);
+        f.last.x[k] = lanes_of_rows(end);
     }
-    const struct lanes3 way = kind == CCD_EDGES ? from_edge(&first) : from_triangle(&first),
-                        n = scale(divide(lanes_all(1), lanes_sqrt(lanes_dot(way, way))), way);
-    const lanes begin = apart_along(&first, kind, n), end = apart_along(&last, kind, n);
+    return f;
+}
+
+/* The direction from the nearest place of the second feature to that of the first. */
+static inline struct lanes3 nearest(const struct four *f, enum ccd_kind kind)
+{
+    const struct lanes3 way = kind == CCD_EDGES ? from_edge(f) : from_triangle(f);
+    return scale(divide(lanes_all(1), lanes_sqrt(lanes_dot(way, way))), way);
+}
+
+static inline void four_apart(const struct contact_flock *flock, enum ccd_kind kind,
+                              const uint32_t (*points)[4], double (*apart)[2])
+{
+    const struct four_ways f = gather(flock, points);
+    const struct lanes3 n = nearest(&f.first, kind);
+    const lanes begin = apart_along(&f.first, kind, n), end = apart_along(&f.last, kind, n);
     for (int i = 0; i < 4; i++) {
         apart[i][0] = begin[i];
         apart[i][1] = end[i];
     }
 }
 
-static void apart(const struct contact_flock *flock, uint32_t (*points)[4], uint32_t count,
-                  double (*apart)[2])
+/* Makes the number a multiple of four, by the last one again. */
+static void fill_up(uint32_t (*points)[4], uint32_t count)
 {
     for (uint32_t i = count; i % 4 != 0; i++)
         for (int k = 0; k < 4; k++)
             points[i][k] = points[count - 1][k];
+}
+
+static void apart(const struct contact_flock *flock, uint32_t (*points)[4], uint32_t count,
+                  double (*apart)[2])
+{
+    fill_up(points, count);
     if (flock->kind == CCD_EDGES)
         for (uint32_t i = 0; i < count; i += 4)
             four_apart(flock, CCD_EDGES, (const uint32_t(*)[4]) & points[i], &apart[i]);
     else
         for (uint32_t i = 0; i < count; i += 4)
             four_apart(flock, CCD_POINT_TRIANGLE, (const uint32_t(*)[4]) & points[i], &apart[i]);
+}
+
+/* Along the direction in which they are nearest at first they are then as far apart as they are at all, to rounding. Features that slide past each other are
+ * often not apart along it at last, but along the one in which they are nearest then. */
+static inline lane_mask four_open(const struct contact_flock *flock, double thickness, enum ccd_kind kind,
+                                  const uint32_t (*points)[4])
+{
+    const struct four_ways f = gather(flock, points);
+    const struct lanes3 n = nearest(&f.first, kind);
+    const lanes distance = apart_along(&f.first, kind, n),
+                gap = 0.500001 * lanes_min(distance, lanes_all(thickness));
+    const lane_mask apart = distance > 1e-6 * thickness,
+                    open = ~(apart & (apart_along(&f.last, kind, n) > gap));
+    if (!lanes_any(open & apart))
+        return open;
+    const struct lanes3 m = nearest(&f.last, kind);
+    return open & ~(apart & (apart_along(&f.first, kind, m) > gap) & (apart_along(&f.last, kind, m) > gap));
+}
+
+static uint32_t open(const struct contact_flock *flock, double thickness, uint32_t (*points)[4],
+                     uint32_t count, uint32_t *open)
+{
+    uint32_t found = 0;
+    fill_up(points, count);
+    for (uint32_t i = 0; i < count; i += 4) {
+        const uint32_t(*four)[4] = (const uint32_t(*)[4]) & points[i];
+        const lane_mask mask = flock->kind == CCD_EDGES
+                                   ? four_open(flock, thickness, CCD_EDGES, four)
+                                   : four_open(flock, thickness, CCD_POINT_TRIANGLE, four);
+        for (uint32_t j = 0; j < 4 && i + j < count; j++) {
+            open[found] = i + j;
+            found += mask[j] != 0;
+        }
+    }
+    return found;
 }
 
 /* Half of the directions to the middles of a cube's faces, edges and corners; the others are their opposites. */
@@ -202,4 +260,4 @@ static void sides(const struct contact_ways *ways, uint32_t (*triangle_point)[3]
 }
 
 extern const struct contact_kernels SIM_CONTACT;
-const struct contact_kernels SIM_CONTACT = {apart, sides};
+const struct contact_kernels SIM_CONTACT = {apart, open, sides};

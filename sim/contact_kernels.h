@@ -28,6 +28,13 @@ struct contact_kernels {
     void (*apart)(const struct contact_flock *flock, uint32_t (*points)[4], uint32_t count,
                   double (*apart)[2]);
 
+    /*
+     * Which of the pairs may come nearer on their way than half of `thickness`, or of their distance at first where that is less: open becomes their numbers, in
+     * order, and the call returns how many. All others surely do not. points as above; open has room for `count`; flock->gone is 0.
+     */
+    uint32_t (*open)(const struct contact_flock *flock, double thickness, uint32_t (*points)[4],
+                     uint32_t count, uint32_t *open);
+
     /* sides[t] becomes, for `count` of the triangles, a bit for each of 26 directions that its normal looks to all the way, whatever its points stray. */
     void (*sides)(const struct contact_ways *ways, uint32_t (*triangle_point)[3], const uint32_t *triangles,
                   uint32_t count, uint32_t *sides);

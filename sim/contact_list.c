@@ -67,9 +67,9 @@ static inline double square_of(const row *way)
 }
 
 /* Rounded up. */
-static inline float square_above(double square)
+static inline float root_above(double square)
 {
-    return (float)(1.000001 * square);
+    return (float)(1.000001 * sqrt(square));
 }
 
 struct laying {
@@ -100,9 +100,9 @@ static void lay_lines(struct sim *sim, const struct sim_part *part, void *contex
         ((row *)c->from)[p] = before[p];
         ((row *)c->to)[p] = before[p] + job->steps * way;
         const double square = square_of(&off),
-                     past = job->held > 0 ? 1.25 * sqrt((double)c->strayed[p]) * job->steps / job->held : 0;
+                     past = job->held > 0 ? 1.25 * (double)c->off[p] * job->steps / job->held : 0;
         c->reach[p] = (float)fmax(fmax(base, fmin(past, 4 * base)), 2 * sqrt(square));
-        c->strayed[p] = square_above(square);
+        c->off[p] = root_above(square);
         for (int i = 0; i < 4; i++)
             c->speed[p][i] = (float)speed[i];
         share->stray = fmax(share->stray, square);
@@ -239,8 +239,8 @@ static void watch_part(struct sim *sim, const struct sim_part *part, void *conte
     struct contact_share share = {0};
     for (uint32_t p = part->point_begin; p < part->point_end; p++) {
         const double square = stray_of(w, p, sim->position);
-        const float above = square_above(square);
-        c->strayed[p] = above > c->strayed[p] ? above : c->strayed[p];
+        const float above = root_above(square);
+        c->off[p] = above > c->off[p] ? above : c->off[p];
         share.stray = square > share.stray ? square : share.stray;
         share.count += is_too_far(w, p, square);
     }
@@ -276,7 +276,7 @@ static void lay_again(struct sim *sim, const struct watch *w, const struct watch
     ((row *)c->to)[p] = place + (1 - w->gone) * way;
     const double square = stray_of(began, p, sim->before), growth = fmin(w->growth, began->growth),
                  wanted = (2 * sqrt(square) + fmax(w->lost, began->lost)) / growth;
-    c->strayed[p] = square_above(square);
+    c->off[p] = root_above(square);
     c->reach[p] = (float)fmax(fmin(2 * (double)c->reach[p], 4 * c->memory.reach), wanted);
 }
 
@@ -337,7 +337,9 @@ enum status contact_list_follow_moved(struct sim *sim, struct error *err)
     for (uint32_t i = 0; i < c->moved_count; i++) {
         const uint32_t p = c->moved[i];
         const double square = stray_of(&w, p, sim->position);
-        c->strayed[p] = fmaxf(c->strayed[p], square_above(square));
+        c->off[p] = fmaxf(c->off[p], root_above(square));
+        if (c->off[p] > c->bound[p])
+            contact_wake(sim, p);
         c->stray = fmax(c->stray, sqrt(square));
         if (is_too_far(&w, p, square))
             note_again(c, p);

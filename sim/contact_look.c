@@ -2,6 +2,7 @@
 #include "common/threads.h"
 #include "common/vec3.h"
 #include "sim/contact_approach.h"
+#include "sim/contact_links.h"
 
 #include <string.h>
 
@@ -62,7 +63,10 @@ bool contact_approaches(const struct sim *sim, const struct contact_pair *pair, 
 struct look {
     const struct sim *sim;
     bool zones;
-    double growth, gone[2]; /* at the step's beginning and end */
+    float growth, gone[2]; /* at the step's beginning and end */
+    float gap;             /* half the thickness */
+    float
+        more; /* by which the points of a sleeping pair may be further off, together, than at the last look at all */
 };
 
 static inline float larger(float a, float b)
@@ -70,18 +74,17 @@ static inline float larger(float a, float b)
     return a > b ? a : b;
 }
 
-/* Whether they may be near enough at all, by what is known of their lines and of how far the points strayed:
- * (a + b)^2 <= 2 (a^2 + b^2). Without branches, since nobody can guess. */
-static inline bool may_touch(const struct look *look, const struct contact_pair *pair)
+/* How much further the points of a pair would have to be off before it could touch, by what is known of their lines; 0 and less: it may. What is known is
+ * a hair too small, for the rounding here. Without branches, since nobody can guess. */
+static inline float spare_of(const struct look *look, const struct contact_pair *pair)
 {
-    const struct contact *c = look->sim->contact;
+    const float *off = look->sim->contact->off;
     const uint32_t *p = pair->point;
-    const float *s = c->strayed, first = s[p[0]], second = s[p[1]], high = larger(s[p[2]], s[p[3]]);
+    const float first = off[p[0]], second = off[p[1]], high = larger(off[p[2]], off[p[3]]);
     const bool edges = pair->kind == CCD_EDGES;
-    const double approach = (double)pair->approach, gone = look->gone[approach > 0],
-                 room = look->growth * ((double)pair->distance - gone * approach) - c->thickness / 2,
-                 squares = (double)(larger(first, edges ? second : 0) + larger(high, edges ? 0 : second));
-    return (room <= 0) | (room * room <= 2.00001 * squares);
+    const float apart = pair->distance - look->gone[pair->approach > 0] * pair->approach;
+    return look->growth * apart - look->gap - larger(first, edges ? second : 0) -
+           larger(high, edges ? 0 : second);
 }
 
 /* Pairs of a kind that are worth a nearer look, some at a time. */
@@ -93,23 +96,19 @@ struct sieve {
     uint32_t pair[2][PAIRS_AT_ONCE], point[2][PAIRS_AT_ONCE][4];
 };
 
-/* Whether a pair surely does not approach, by how far it is apart along a line. It begins no nearer than that, and to rounding no further. */
-static bool is_clear(const struct contact *c, const double apart[2])
-{
-    return apart[0] > 1e-6 * c->thickness && apart[1] > 0.500001 * fmin(apart[0], c->thickness);
-}
-
 static void look_closely(struct sieve *sieve, enum ccd_kind kind)
 {
     const struct sim *sim = sieve->look->sim;
     struct contact *c = sim->contact;
-    struct contact_flock flock = {kind, sim->before, sim->position, 0};
-    double apart[PAIRS_AT_ONCE][2];
-    c->tree.kernels->apart(&flock, sieve->point[kind], sieve->count[kind], apart);
-    for (uint32_t i = 0; i < sieve->count[kind]; i++) {
+    const struct contact_flock flock = {kind, sim->before, sim->position, 0};
+    uint32_t open[PAIRS_AT_ONCE];
+    const uint32_t count = c->tree.kernels->open(&flock, c->thickness, sieve->point[kind], sieve->count[kind],
+                                                 open);
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t pair = sieve->pair[kind][open[i]];
         struct contact_approach a;
-        if (!is_clear(c, apart[i]) && contact_approaches(sim, &c->pairs[sieve->pair[kind][i]], &a))
-            c->hits[__atomic_fetch_add(&c->hit_count, 1, __ATOMIC_RELAXED)] = sieve->pair[kind][i];
+        if (contact_approaches(sim, &c->pairs[pair], &a))
+            c->hits[__atomic_fetch_add(&c->hit_count, 1, __ATOMIC_RELAXED)] = pair;
     }
     sieve->count[kind] = 0;
 }
@@ -155,14 +154,36 @@ static void look_at_some(void *context, size_t index, unsigned worker)
     uint32_t kept[PAIRS_AT_ONCE], count = 0;
     for (uint32_t i = begin; i < end; i++) {
         kept[count] = i;
-        count += may_touch(sieve.look, &c->pairs[i]);
+        const float spare = spare_of(sieve.look, &c->pairs[i]);
+        count += spare <= 0;
+        c->awake[i] = spare <= sieve.look->more;
     }
     for (uint32_t i = 0; i < count; i++)
         take_in(&sieve, kept[i]);
     end_look(&sieve);
 }
 
-/* Each pair by the first of its points that have moved. */
+/* Whether no point of the pair before the place has moved: each pair is looked at by the first that has. Without branches. */
+static inline bool is_first(const struct contact *c, const uint32_t *p, uint32_t place)
+{
+    const unsigned char *stirred = c->stirred;
+    const int before = stirred[p[0]] | stirred[p[1]] << 1 | stirred[p[2]] << 2;
+    return (before & ((1 << place) - 1)) == 0;
+}
+
+static void take_links_in(struct sieve *sieve, uint32_t *links, uint32_t count)
+{
+    const struct contact *c = sieve->look->sim->contact;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t pair = links[i] / 4, place = links[i] % 4;
+        links[kept] = pair;
+        kept += is_first(c, c->pairs[pair].point, place) & (spare_of(sieve->look, &c->pairs[pair]) <= 0);
+    }
+    for (uint32_t i = 0; i < kept; i++)
+        take_in(sieve, links[i]);
+}
+
 static void look_at_links(void *context, size_t index, unsigned worker)
 {
     (void)worker;
@@ -171,15 +192,19 @@ static void look_at_links(void *context, size_t index, unsigned worker)
     const struct contact *c = sieve.look->sim->contact;
     const uint32_t begin = (uint32_t)index * POINTS_AT_ONCE,
                    end = begin + POINTS_AT_ONCE < c->moved_count ? begin + POINTS_AT_ONCE : c->moved_count;
-    for (uint32_t i = begin; i < end; i++)
-        for (uint32_t at = c->first[c->moved[i]]; at != UINT32_MAX; at = c->next[at / 4][at % 4]) {
-            const uint32_t *p = c->pairs[at / 4].point;
-            bool first = true;
-            for (uint32_t k = 0; k < at % 4; k++)
-                first &= !c->stirred[p[k]];
-            if (first && may_touch(sieve.look, &c->pairs[at / 4]))
-                take_in(&sieve, at / 4);
+    uint32_t kept[PAIRS_AT_ONCE], count = 0;
+    for (uint32_t i = begin; i < end; i++) {
+        struct contact_links links = contact_links_of(c, c->moved[i]);
+        for (uint32_t at; (at = contact_links_next(&links)) != UINT32_MAX;) {
+            kept[count] = at;
+            count += c->awake[at / 4];
+            if (count == PAIRS_AT_ONCE) {
+                take_links_in(&sieve, kept, count);
+                count = 0;
+            }
         }
+    }
+    take_links_in(&sieve, kept, count);
     end_look(&sieve);
 }
 
@@ -229,14 +254,23 @@ static void drop_equal_hits(struct contact *c)
     c->hit_count = count;
 }
 
+/* Single precision is off by less than what pairs are known to be nearer than they are. */
+static struct look look_of(const struct sim *sim, bool zones)
+{
+    const struct contact *c = sim->contact;
+    return (struct look){sim,
+                         zones,
+                         (float)fmin(1, fmin(c->memory.began.growth, c->motion.growth)),
+                         {(float)contact_list_gone_before(sim), (float)contact_list_gone(sim)},
+                         (float)(c->thickness * 0.5000001),
+                         (float)(c->thickness * 0.6)};
+}
+
 static bool look(struct sim *sim, bool zones, size_t count,
                  void (*function)(void *context, size_t index, unsigned worker))
 {
     struct contact *c = sim->contact;
-    struct look look = {sim,
-                        zones,
-                        fmin(1, fmin(c->memory.began.growth, c->motion.growth)),
-                        {contact_list_gone_before(sim), contact_list_gone(sim)}};
+    struct look look = look_of(sim, zones);
     c->hit_count = 0;
     threads_run(sim->pool, count, function, &look);
     sort_hits(c);
@@ -246,11 +280,25 @@ static bool look(struct sim *sim, bool zones, size_t count,
 
 bool contact_look(struct sim *sim)
 {
-    return look(sim, false, (sim->contact->pair_count + PAIRS_AT_ONCE - 1) / PAIRS_AT_ONCE, look_at_some);
+    struct contact *c = sim->contact;
+    const float more = (float)c->thickness / 4; /* of two points that is less than look.more */
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        c->bound[p] = c->off[p] + more;
+    return look(sim, false, (c->pair_count + PAIRS_AT_ONCE - 1) / PAIRS_AT_ONCE, look_at_some);
+}
+
+void contact_wake(struct sim *sim, uint32_t point)
+{
+    struct contact *c = sim->contact;
+    contact_links_make(sim);
+    c->bound[point] = INFINITY;
+    struct contact_links links = contact_links_of(c, point);
+    for (uint32_t at; (at = contact_links_next(&links)) != UINT32_MAX;)
+        c->awake[at / 4] = 1;
 }
 
 bool contact_look_at_moved(struct sim *sim, bool zones)
 {
-    contact_pairs_link(sim);
+    contact_links_make(sim);
     return look(sim, zones, (sim->contact->moved_count + POINTS_AT_ONCE - 1) / POINTS_AT_ONCE, look_at_links);
 }

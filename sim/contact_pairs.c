@@ -1,7 +1,7 @@
 /* The list of pairs that can come near each other: of points and triangles and of edges, from the triangles whose boxes meet. */
 #include "common/threads.h"
 #include "common/vec3.h"
-#include "sim/contact.h"
+#include "sim/contact_links.h"
 
 #include <string.h>
 
@@ -66,11 +66,13 @@ static void list_taken(const struct finder *f, struct contact_taken *taken, enum
         const double pace = (apart[i][0] - apart[i][1]) / (1 - f->gone),
                      at_first = apart[i][0] + f->gone * pace;
         const uint32_t place = __atomic_fetch_add(&c->pair_count, 1, __ATOMIC_RELAXED);
-        if (place < c->pair_capacity)
-            c->pairs[place] = (struct contact_pair){{p[0], p[1], p[2], p[3]},
-                                                    kind,
-                                                    (float)(at_first - 1e-6 * (fabs(at_first) + fabs(pace))),
-                                                    (float)pace};
+        if (place >= c->pair_capacity)
+            continue;
+        c->awake[place] = 1;
+        c->pairs[place] = (struct contact_pair){{p[0], p[1], p[2], p[3]},
+                                                kind,
+                                                (float)(at_first - 1e-6 * (fabs(at_first) + fabs(pace))),
+                                                (float)pace};
     }
     taken->count[kind] = 0;
 }
@@ -190,7 +192,7 @@ enum status contact_pairs_find(struct sim *sim, struct error *err)
     const struct contact_ways ways = ways_of(c);
     struct finder finder = {sim, c, contact_list_gone_before(sim)};
     share_anew(sim);
-    c->pair_count = c->linked = 0;
+    c->pair_count = c->indexed = c->linked = 0;
     contact_tree_fit(&c->tree, sim, &ways);
     contact_tree_pairs(&c->tree, sim, take_leaves, &finder);
     list_rest(&finder, threads_workers(sim->pool));
@@ -198,23 +200,11 @@ enum status contact_pairs_find(struct sim *sim, struct error *err)
     return check_room(sim, err);
 }
 
-void contact_pairs_link(struct sim *sim)
-{
-    struct contact *c = sim->contact;
-    if (c->linked == 0)
-        memset(c->first, 0xff, sim->point_count * sizeof *c->first);
-    for (; c->linked < c->pair_count; c->linked++)
-        for (uint32_t k = 0; k < 4; k++) {
-            uint32_t *first = &c->first[c->pairs[c->linked].point[k]];
-            c->next[c->linked][k] = *first;
-            *first = 4 * c->linked + k;
-        }
-}
-
 /* Pairs at that distance are never looked at again. */
 static void forget_pairs(struct contact *c, uint32_t point)
 {
-    for (uint32_t at = c->first[point]; at != UINT32_MAX; at = c->next[at / 4][at % 4])
+    struct contact_links links = contact_links_of(c, point);
+    for (uint32_t at; (at = contact_links_next(&links)) != UINT32_MAX;)
         c->pairs[at / 4].distance = INFINITY;
 }
 
@@ -341,7 +331,7 @@ enum status contact_pairs_find_again(struct sim *sim, struct error *err)
     const struct contact_ways ways = ways_of(c);
     struct finder finder = {sim, c, contact_list_gone_before(sim)};
     share_anew(sim);
-    contact_pairs_link(sim);
+    contact_links_make(sim);
     for (uint32_t i = 0; i < c->again_count; i++) {
         forget_pairs(c, c->again[i]);
         c->marked[c->again[i]] = 1;

@@ -44,14 +44,17 @@ static bool allocate(struct sim *sim, struct contact *c)
     c->from = sim_table(sim, points, sizeof *c->from);
     c->to = sim_table(sim, points, sizeof *c->to);
     c->reach = sim_table(sim, points, sizeof *c->reach);
-    c->strayed = sim_table(sim, points, sizeof *c->strayed);
+    c->off = sim_table(sim, points, sizeof *c->off);
     c->speed = sim_table(sim, points, sizeof *c->speed);
     c->star_end = sim_table(sim, points, sizeof *c->star_end);
     c->star = sim_table(sim, 3 * triangles, sizeof *c->star);
     c->taken = sim_table(sim, threads_workers(sim->pool), sizeof *c->taken);
     c->pairs = sim_table(sim, c->pair_capacity, sizeof *c->pairs);
-    c->first = sim_table(sim, points, sizeof *c->first);
-    c->next = sim_table(sim, c->pair_capacity, sizeof *c->next);
+    c->link = sim_table(sim, 4 * (size_t)c->pair_capacity, sizeof *c->link);
+    c->link_end = sim_table(sim, points, sizeof *c->link_end);
+    c->chain = sim_table(sim, points, sizeof *c->chain);
+    c->bound = sim_table(sim, points, sizeof *c->bound);
+    c->awake = sim_table(sim, c->pair_capacity, 1);
     c->hits = sim_table(sim, c->pair_capacity, sizeof *c->hits);
     c->moved = sim_table(sim, points, sizeof *c->moved);
     c->again = sim_table(sim, points, sizeof *c->again);
@@ -62,9 +65,9 @@ static bool allocate(struct sim *sim, struct contact *c)
     c->zone = sim_table(sim, points, sizeof *c->zone);
     c->drift = sim_table(sim, points, sizeof *c->drift);
     c->share = sim_table(sim, sim->part_count, sizeof *c->share);
-    return c->from && c->to && c->reach && c->strayed && c->speed && c->star_end && c->star && c->taken &&
-           c->pairs && c->first && c->next && c->hits && c->moved && c->again && c->around && c->stirred &&
-           c->marked && c->held && c->zone && c->drift && c->share;
+    return c->from && c->to && c->reach && c->off && c->speed && c->star_end && c->star && c->taken &&
+           c->pairs && c->link && c->link_end && c->chain && c->bound && c->awake && c->hits && c->moved &&
+           c->again && c->around && c->stirred && c->marked && c->held && c->zone && c->drift && c->share;
 }
 
 /* Whether the edge a b passes through the triangle: its ends on two sides, and its line between the corners. */
@@ -185,9 +188,9 @@ static void close(struct sim *sim, struct sim_balloon *balloon)
     if (!c)
         return;
     contact_tree_close(&c->tree);
-    void *tables[] = {c->from,   c->to,      c->reach,  c->strayed, c->speed, c->star_end, c->star,
-                      c->taken,  c->pairs,   c->first,  c->next,    c->hits,  c->moved,    c->again,
-                      c->around, c->stirred, c->marked, c->held,    c->zone,  c->drift,    c->share};
+    void *tables[] = {c->from,  c->to,     c->reach,    c->off,    c->speed, c->star_end, c->star,  c->taken,
+                      c->pairs, c->link,   c->link_end, c->chain,  c->bound, c->awake,    c->hits,  c->moved,
+                      c->again, c->around, c->stirred,  c->marked, c->held,  c->zone,     c->drift, c->share};
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++)
         free(tables[i]);
     free(c);
@@ -203,7 +206,7 @@ static size_t blocks(struct sim *sim, struct sim_balloon *balloon, struct sim_bl
     list[1] = (struct sim_block){"contact from", c->from, rows};
     list[2] = (struct sim_block){"contact to", c->to, rows};
     list[3] = (struct sim_block){"contact reach", c->reach, sim->point_count * sizeof *c->reach};
-    list[4] = (struct sim_block){"contact strayed", c->strayed, sim->point_count * sizeof *c->strayed};
+    list[4] = (struct sim_block){"contact off", c->off, sim->point_count * sizeof *c->off};
     list[5] = (struct sim_block){"contact speed", c->speed, sim->point_count * sizeof *c->speed};
     return 6;
 }
