@@ -5,6 +5,8 @@
 #include "sim/membrane_kernels.h"
 #include "sim/membrane_response.h"
 
+#include <string.h>
+
 /* Up to four active triangles, the last ones filled up with the first. */
 struct group {
     uint32_t triangle[4];
@@ -156,58 +158,62 @@ INLINE void group_forces(const struct tables *t, const struct group *g, enum mem
     range->d = lanes_min(range->d, k.stretched.d);
 }
 
-/* Puts a triangle into the group if it is active; true when the group is full. */
-INLINE bool takes(struct group *g, const unsigned char *active, uint32_t triangle)
-{
-    if (!active[triangle])
-        return false;
-    g->triangle[g->count++] = triangle;
-    return g->count == 4;
-}
+/* A way through triangles: first those of a list, then those from `next` on. */
+struct walk {
+    const uint32_t *list;
+    uint32_t listed, next, end;
+};
 
-INLINE bool fill_up(struct group *g)
+/* The next four triangles that are active; false when there are none. */
+INLINE bool next_group(struct walk *walk, const unsigned char *active, struct group *g)
 {
+    g->count = 0;
+    while (g->count < 4 && (walk->listed || walk->next < walk->end)) {
+        uint32_t triangle;
+        if (walk->listed) {
+            triangle = *walk->list++;
+            walk->listed--;
+        } else {
+            triangle = walk->next++;
+        }
+        if (active[triangle])
+            g->triangle[g->count++] = triangle;
+    }
     for (int i = g->count; i < 4; i++)
         g->triangle[i] = g->triangle[0];
     return g->count > 0;
 }
 
-/* Of the triangles from begin to end, or where there is a list, of those in it. */
-INLINE void forces_of(struct sim *sim, const struct sim_part *part, const uint32_t *list, uint32_t begin,
-                      uint32_t end, enum membrane_kind kind, bool viscous, struct stretched *range)
+INLINE void forces_of(struct sim *sim, const struct sim_part *part, struct walk walk, enum membrane_kind kind,
+                      bool viscous, struct stretched *range)
 {
     const struct tables t = tables_of(sim, part->balloon);
     const uint32_t first = part->point_begin, own = part->point_end - first;
-    row *force = sim->rows.force;
-    struct group g = {.count = 0};
-    for (uint32_t i = begin; i < end; i++)
-        if (takes(&g, t.active, list ? list[i] : i)) {
-            group_forces(&t, &g, kind, viscous, first, own, force, range);
-            g.count = 0;
-        }
-    if (fill_up(&g))
-        group_forces(&t, &g, kind, viscous, first, own, force, range);
+    struct group g;
+    while (next_group(&walk, t.active, &g))
+        group_forces(&t, &g, kind, viscous, first, own, sim->rows.force, range);
 }
 
-static void forces_by_law(struct sim *sim, const struct sim_part *part, const uint32_t *list, uint32_t begin,
-                          uint32_t end, struct stretched *range)
+static void forces_by_law(struct sim *sim, const struct sim_part *part, struct walk walk,
+                          struct stretched *range)
 {
     const struct membrane *m = part->balloon->membrane;
     const bool viscous = m->viscosity > 0;
     if (m->law.kind == MEMBRANE_OGDEN)
-        forces_of(sim, part, list, begin, end, MEMBRANE_OGDEN, viscous, range);
+        forces_of(sim, part, walk, MEMBRANE_OGDEN, viscous, range);
     else if (m->law.kind == MEMBRANE_GENT)
-        forces_of(sim, part, list, begin, end, MEMBRANE_GENT, viscous, range);
+        forces_of(sim, part, walk, MEMBRANE_GENT, viscous, range);
     else if (viscous)
-        forces_of(sim, part, list, begin, end, MEMBRANE_NEO_HOOKEAN, true, range);
+        forces_of(sim, part, walk, MEMBRANE_NEO_HOOKEAN, true, range);
     else
-        forces_of(sim, part, list, begin, end, MEMBRANE_NEO_HOOKEAN, false, range);
+        forces_of(sim, part, walk, MEMBRANE_NEO_HOOKEAN, false, range);
 }
 
 static void coming_forces(struct sim *sim, const struct sim_part *part)
 {
     struct stretched range = {.d = lanes_all(INFINITY)}; /* their own part takes it down */
-    forces_by_law(sim, part, part->triangle_in, 0, part->triangle_in_count, &range);
+    const struct walk walk = {.list = part->triangle_in, .listed = part->triangle_in_count};
+    forces_by_law(sim, part, walk, &range);
     double *kept = part->balloon->membrane->range[part - sim->parts];
     kept[0] = 0;
     kept[1] = INFINITY;
@@ -217,7 +223,8 @@ static void forces(struct sim *sim, const struct sim_part *part, const struct si
 {
     double *kept = part->balloon->membrane->range[part - sim->parts];
     struct stretched range = {.a = lanes_all(kept[0]), .d = lanes_all(kept[1])};
-    forces_by_law(sim, part, NULL, chunk->triangle_begin, chunk->triangle_end, &range);
+    const struct walk walk = {.next = chunk->triangle_begin, .end = chunk->triangle_end};
+    forces_by_law(sim, part, walk, &range);
     kept[0] = fmax(fmax(range.a[0], range.a[1]), fmax(range.a[2], range.a[3]));
     kept[1] = fmin(fmin(range.d[0], range.d[1]), fmin(range.d[2], range.d[3]));
 }
@@ -266,15 +273,10 @@ INLINE void group_product(const struct tables *t, const struct group *g, enum me
 static void product(struct sim *sim, const struct sim_part *part, const struct jacobian_product *product)
 {
     const struct tables t = tables_of(sim, part->balloon);
-    const uint32_t first = part->point_begin, own = part->point_end - first, coming = part->triangle_in_count,
-                   count = coming + part->triangle_end - part->triangle_begin;
-    struct group g = {.count = 0};
-    for (uint32_t i = 0; i < count; i++)
-        if (takes(&g, t.active, i < coming ? part->triangle_in[i] : part->triangle_begin + i - coming)) {
-            group_product(&t, &g, t.law->kind, first, own, product);
-            g.count = 0;
-        }
-    if (fill_up(&g))
+    const uint32_t first = part->point_begin, own = part->point_end - first;
+    struct walk walk = {part->triangle_in, part->triangle_in_count, part->triangle_begin, part->triangle_end};
+    struct group g;
+    while (next_group(&walk, t.active, &g))
         group_product(&t, &g, t.law->kind, first, own, product);
 }
 
@@ -285,35 +287,25 @@ INLINE lanes group_energy(const struct tables *t, const struct group *g)
     return membrane_response(t->law, t->law->kind, k.stretched, RESPONSE_ENERGY).energy;
 }
 
-/* Of a full group: energies into their places, and their sum times mu V. */
-static double take_energy(const struct tables *t, const struct group *g, uint32_t begin, double *each)
-{
-    const lanes w = group_energy(t, g);
-    double sum = 0;
-    for (int i = 0; i < g->count; i++) {
-        sum += w[i] * t->rest[g->triangle[i] - t->first][3];
-        if (each)
-            each[g->triangle[i] - begin] = w[i];
-    }
-    return sum;
-}
-
 static double energy(const struct sim *sim, const struct sim_balloon *balloon, uint32_t begin, uint32_t end,
                      double *each)
 {
     const struct tables t = tables_of(sim, balloon);
-    struct group g = {.count = 0};
+    struct walk walk = {.next = begin, .end = end};
+    struct group g;
     double sum = 0;
-    for (uint32_t i = begin; i < end; i++) {
-        if (each && !t.active[i])
-            each[i - begin] = 0;
-        if (takes(&g, t.active, i)) {
-            sum += take_energy(&t, &g, begin, each);
-            g.count = 0;
+    if (each)
+        memset(each, 0, (end - begin) * sizeof *each);
+    while (next_group(&walk, t.active, &g)) {
+        const lanes w = group_energy(&t, &g);
+        double four = 0;
+        for (int i = 0; i < g.count; i++) {
+            four += w[i] * t.rest[g.triangle[i] - t.first][3];
+            if (each)
+                each[g.triangle[i] - begin] = w[i];
         }
+        sum += four;
     }
-    if (fill_up(&g))
-        sum += take_energy(&t, &g, begin, each);
     return sum;
 }
 
@@ -334,14 +326,12 @@ static double dissipation(const struct sim *sim, const struct sim_balloon *ballo
                           uint32_t end)
 {
     const struct tables t = tables_of(sim, balloon);
-    struct group g = {.count = 0};
+    struct walk walk = {.next = begin, .end = end};
+    struct group g;
     double sum = 0;
-    for (uint32_t i = begin; i < end; i++)
-        if (takes(&g, t.active, i)) {
-            sum += take_dissipation(&t, &g);
-            g.count = 0;
-        }
-    return fill_up(&g) ? sum + take_dissipation(&t, &g) : sum;
+    while (next_group(&walk, t.active, &g))
+        sum += take_dissipation(&t, &g);
+    return sum;
 }
 
 static struct membrane_response respond(const struct membrane_law *law, double a, double d, double gap)

@@ -154,19 +154,18 @@ INLINE struct response law_response(const struct membrane_law *law, enum membran
                                    : mooney_response(law, s, asked);
 }
 
-/* Also where triangles are crushed (MEMBRANE_CRUSHED). */
-INLINE struct response full_response(const struct membrane_law *law, enum membrane_kind kind,
-                                     struct stretched s, int asked)
+/* Where some triangles are crushed (MEMBRANE_CRUSHED). Seldom, and so not compiled into every loop. */
+static __attribute__((noinline)) struct response crushed_response(const struct membrane_law *law,
+                                                                  struct stretched s)
 {
     const double least = MEMBRANE_CRUSHED;
     const lane_mask crushed = (lane_mask)(s.d < least);
-    if (!lanes_any(crushed))
-        return law_response(law, kind, s, asked);
     const lanes slope = lanes_select(crushed, s.d * (1 / least), lanes_all(1));
     const lanes bend = lanes_select(crushed, lanes_all(1 / least), lanes_all(0));
     const lanes d = lanes_select(crushed, .5 * (least + s.d * slope), s.d);
     const lanes gap = lanes_select(crushed, s.a * s.a - 4 * d, s.gap);
-    struct response w = law_response(law, kind, (struct stretched){s.a, d, gap}, asked);
+    struct response w = law_response(law, law->kind, (struct stretched){s.a, d, gap},
+                                     RESPONSE_ENERGY | RESPONSE_FIRST | RESPONSE_SECOND);
     w.dd = w.dd * slope * slope + w.d * bend;
     w.ad *= slope;
     w.d *= slope;
@@ -215,7 +214,8 @@ static inline lanes blend(lane_mask mask, double share, lanes b, lanes a)
 INLINE struct response membrane_response(const struct membrane_law *law, enum membrane_kind kind,
                                          struct stretched s, int asked)
 {
-    struct response w = full_response(law, kind, s, asked);
+    struct response w = lanes_any((lane_mask)(s.d < MEMBRANE_CRUSHED)) ? crushed_response(law, s)
+                                                                       : law_response(law, kind, s, asked);
     const lanes square = s.d * s.d;
     if (law->compression == 1 || !lanes_any((lane_mask)(square < s.a)))
         return w;
