@@ -3,7 +3,7 @@
  * Only the program layer (main.c, window.c) includes this; libraries never print.
  *
  *     command_begin("balloon-surface");         first: --version, and argp's exit code 2
- *     argp_parse(...);
+ *     command_parse(&argp, argc, argv, &options);
  *     if (surface_make(..., &err)) return command_fail(&err);
  */
 #ifndef COMMON_COMMAND_H
@@ -16,6 +16,10 @@
 #include <stddef.h>
 
 void command_begin(const char *program);
+
+/* argp_parse(), which ends the program with a message and exit code 2 where the command line is wrong; of an option that there is not the
+ * message names the nearest that there is. Every option of `argp` has a long name. */
+void command_parse(const struct argp *argp, int argc, char **argv, void *input);
 
 /* Memory that is freed stays with the program: the software renderer asks for the same tens of megabytes for each picture, and to
  * have them mapped anew takes longer than to sort its triangles. */

@@ -1,6 +1,7 @@
 #include "common/scene_value.h"
 #include "common/array.h"
 #include "common/scene.h"
+#include "common/spelling.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -20,40 +21,6 @@ enum status scene_refuse(const struct scene_source *source, const config_setting
     return error_set(err, STATUS_INPUT, "--set: %s", text);
 }
 
-/* Levenshtein's distance, for names short enough; used to guess what a misspelt key meant. */
-static size_t spelling_distance(const char *a, const char *b)
-{
-    enum { LONGEST = 40 };
-    size_t row[LONGEST + 1], length = strlen(b);
-    if (strlen(a) > LONGEST || length > LONGEST)
-        return LONGEST;
-    for (size_t j = 0; j <= length; j++)
-        row[j] = j;
-    for (size_t i = 1; a[i - 1]; i++) {
-        size_t diagonal = row[0];
-        row[0] = i;
-        for (size_t j = 1; j <= length; j++) {
-            size_t change = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = row[j];
-            size_t gap = (row[j] < row[j - 1] ? row[j] : row[j - 1]) + 1;
-            row[j] = change < gap ? change : gap;
-        }
-    }
-    return row[length];
-}
-
-struct guess {
-    const char *name;
-    size_t distance;
-};
-
-static void consider(struct guess *best, const char *wrong, const char *name)
-{
-    size_t distance = spelling_distance(wrong, name);
-    if (distance < best->distance)
-        *best = (struct guess){name, distance};
-}
-
 /* Where a block of that name belongs that does not belong here; NULL: there is none. */
 static const char *place_of(const char *name)
 {
@@ -70,15 +37,15 @@ enum status scene_refuse_name(const struct scene_source *source, const config_se
     const char *owner = block ? block->name : "", *place = place_of(name);
     if (place)
         return scene_refuse(source, at, err, "the block `%s` %s", name, place);
-    struct guess best = {NULL, strlen(name) / 2 + 1};
+    struct spelling guess = spelling_of(name);
     for (size_t i = 0; block && i < block->field_count; i++)
-        consider(&best, name, block->fields[i].key);
+        spelling_consider(&guess, block->fields[i].key);
     for (size_t i = 0; i < scene_block_count; i++)
         if (!strcmp(scene_blocks[i].parent, owner))
-            consider(&best, name, scene_blocks[i].name);
+            spelling_consider(&guess, scene_blocks[i].name);
     return scene_refuse(source, at, err, "unknown key `%s`%s%s%s%s%s; --help-scene lists all keys", name,
-                        block ? " in " : "", owner, best.name ? " (did you mean `" : "",
-                        best.name ? best.name : "", best.name ? "`?)" : "");
+                        block ? " in " : "", owner, guess.nearest ? " (did you mean `" : "",
+                        guess.nearest ? guess.nearest : "", guess.nearest ? "`?)" : "");
 }
 
 static bool to_number(const config_setting_t *value, double *number)

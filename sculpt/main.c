@@ -369,7 +369,7 @@ int main(int argc, char **argv)
         error_no_memory(&err, "the options");
         return command_fail(&err);
     }
-    argp_parse(&argp, argc, argv, 0, NULL, &options);
+    command_parse(&argp, argc, argv, &options);
     enum status status = check_options(&options, &err);
     if (!status)
         status = asks_for_result(&options) ? carve_in_batch(&options, &err) : open_window(&options, &err);

@@ -253,7 +253,7 @@ bool options_parse(struct options *options, int argc, char **argv)
     *options = (struct options){.set = array_new((size_t)argc, sizeof *options->set), .checkpoint_every = -1};
     if (!options->set)
         return false;
-    argp_parse(&argp, argc, argv, 0, NULL, options);
+    command_parse(&argp, argc, argv, options);
     return true;
 }
 

@@ -340,7 +340,7 @@ int main(int argc, char **argv)
     command_begin("balloon-surface");
     arguments.options.seed = 1;
     arguments.options.progress = show_progress;
-    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    command_parse(&argp, argc, argv, &arguments);
     enum status status = check_files(&arguments, &err);
     if (status == STATUS_OK)
         status = octree_load(arguments.input, &tree, &err);
