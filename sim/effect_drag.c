@@ -35,15 +35,12 @@ static enum status open(struct sim *sim, struct sim_balloon *balloon, struct err
     if (!sim->drag)
         return error_no_memory(err, "the drag");
     sim->bytes += sizeof *sim->drag;
-    sim->rows.air = sim_table(sim, sim->point_count, sizeof(double[4]));
-    return sim->rows.air ? STATUS_OK : error_no_memory(err, "the air's forces");
+    return STATUS_OK;
 }
 
 static void close(struct sim *sim, struct sim_balloon *balloon)
 {
     (void)balloon;
-    free(sim->rows.air);
-    sim->rows.air = NULL;
     free(sim->drag);
     sim->drag = NULL;
 }

@@ -54,7 +54,7 @@ static const struct cost {
      {0, 0, 0},
      {0, 0, 0}},
     {"gravity", "a pass over the points", {5, 4, 0}, {0, 0, 0}, {0, 0, 0}},
-    {"drag", "a row a point, and more work on each triangle", {3, 1, 0}, {0, 0, 0}, {7, 8, 0}},
+    {"drag", "the points' speeds, and more work on each triangle", {0, 0, 0}, {0, 0, 0}, {6, 9, 0}},
     {"string", "a patch of points; six numbers where a weight hangs on it", {0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
     {"pins", "a byte for each held point", {0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
     {"fracture",

@@ -69,19 +69,9 @@ static void triangle_normals(struct sim *sim, const struct sim_part *part, const
     add_triangles(sim, part, chunk, true);
 }
 
-/* The forces of the air are added up apart, in the triangles' order, so that their sums are the same however the points are shared
- * out; they are 0 again afterwards. */
-static inline row taken(row *air)
-{
-    const row force = *air;
-    *air = (row){0};
-    return force;
-}
-
 /* Part 4: normalize the normals; pressure is a force along them. A point that lost its last triangle has no normal, and
  * nothing for the air to press on. */
-static inline void press_points(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk,
-                                row *air)
+static void pressure_forces(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk)
 {
     row *force = sim->rows.force, *normal = sim->rows.normal;
     const double pressure = part->balloon->now->pressure;
@@ -92,32 +82,17 @@ static inline void press_points(struct sim *sim, const struct sim_part *part, co
         for (uint32_t i = 0; i < 4; i++) {
             normal[p + i] *= inverse_length[i];
             force[p + i] += pressure * normal[p + i];
-            if (air)
-                force[p + i] += taken(&air[p + i]);
         }
     }
     for (; p < end; p++) {
         normal[p] *= inverse(length_of(normal[p]));
         force[p] += pressure * normal[p];
-        if (air)
-            force[p] += taken(&air[p]);
     }
-}
-
-static void pressure_forces(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk)
-{
-    if (sim->rows.air)
-        press_points(sim, part, chunk, sim->rows.air);
-    else
-        press_points(sim, part, chunk, NULL);
 }
 
 static void triangle_areas(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk)
 {
-    row *force = sim->rows.force, *air = sim->rows.air;
     add_triangles(sim, part, chunk, false);
-    for (uint32_t p = chunk->point_begin; p < chunk->point_end && air; p++)
-        force[p] += taken(&air[p]);
 }
 
 /* Where pressure acts on areas, in place of part 4. */

@@ -114,7 +114,7 @@ INLINE struct edges_found edge_forces_of_four(const struct edges *edges, uint32_
     }
     pull *= inverse_length;
     for (int i = 0; i < 4; i++)
-        f[i] = pull[i] * l[i];
+        f[i] = lanes_spread(pull, i) * l[i];
     return found;
 }
 

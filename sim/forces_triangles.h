@@ -15,27 +15,26 @@ static inline row triangle_normal(const row *position, const uint32_t *p, bool u
     return twice_area;
 }
 
-/* The same for four triangles that follow each other. */
-struct normals {
-    row twice_area[4], added[4];
+/* Four triangles that follow each other: N, twice their area vectors, as rows and turned, and 1/|N|, or 0. */
+struct facets {
+    row twice_area[4];
+    struct lanes3 turned;
     lanes inverse;
 };
 
-static inline struct normals normals_of_four(const row *position, const uint32_t (*point)[3], bool unit)
+static inline struct facets facets_of(const row *position, const uint32_t (*point)[3])
 {
-    struct normals n;
+    struct facets f;
     for (int i = 0; i < 4; i++)
-        n.added[i] = n.twice_area[i] = triangle_normal(position, point[i], false);
-    n.inverse = inverses(lengths_of(n.twice_area));
-    for (int i = 0; i < 4 && unit; i++)
-        n.added[i] *= n.inverse[i];
-    return n;
+        f.twice_area[i] = triangle_normal(position, point[i], false);
+    f.turned = lanes_of_rows(f.twice_area);
+    f.inverse = inverses(lanes_sqrt(lanes_dot(f.turned, f.turned)));
+    return f;
 }
 
-/* The air's resistance (effect_drag.c), with what the normal has brought: (r C/12) (w . N) |w . N| N/|N|^2, N twice the area
- * vector, w the wind less the mean speed. */
+/* The air's resistance (effect_drag.c), with what the normal has brought: (r C/12) (w . n) |w . n| N, n = N/|N|, w the wind less the mean
+ * speed. */
 struct air {
-    row *force; /* sim->rows.air */
     const row *velocity;
     row wind;      /* three times it */
     double factor; /* r C/108 */
@@ -45,33 +44,31 @@ static inline struct air air_of(const struct sim *sim)
 {
     const struct scene_drag *drag = &sim->scene->drag;
     const row wind = {drag->wind[0], drag->wind[1], drag->wind[2], 0};
-    return (struct air){sim->rows.air, sim->rows.velocity, 3 * wind,
-                        drag->air_density * drag->coefficient / 108};
+    return (struct air){sim->rows.velocity, 3 * wind, drag->air_density * drag->coefficient / 108};
 }
 
-static inline row wind_at(const struct air *air, const uint32_t *p)
+/* Three times the mean speed. */
+static inline row speed_at(const struct air *air, const uint32_t *p)
 {
-    return air->wind - (air->velocity[p[0]] + air->velocity[p[1]] + air->velocity[p[2]]);
+    return air->velocity[p[0]] + air->velocity[p[1]] + air->velocity[p[2]];
 }
 
 static inline row air_force(const struct air *air, const uint32_t *p, row n)
 {
-    const double across = dot(wind_at(air, p), n), size = fabs(across),
-                 inverse_length = inverse(length_of(n));
-    return air->factor * (across * size) * (inverse_length * inverse_length) * n;
+    const double across = dot(air->wind - speed_at(air, p), n) * inverse(length_of(n));
+    return air->factor * (across * fabs(across)) * n;
 }
 
-/* The same for four triangles, each as for one alone, to the bit. */
-static inline void air_forces_of_four(const struct air *air, const uint32_t (*point)[3],
-                                      const struct normals *n, row f[4])
+/* The same for four triangles, each as for one alone, to the bit: what their N are multiplied by. */
+static inline lanes air_pushes(const struct air *air, const uint32_t (*point)[3], const struct facets *f)
 {
-    row w[4];
+    row v[4];
     for (int i = 0; i < 4; i++)
-        w[i] = wind_at(air, point[i]);
-    const lanes across = lanes_dot(lanes_of_rows(w), lanes_of_rows(n->twice_area));
-    const lanes push = air->factor * (across * lanes_size(across)) * (n->inverse * n->inverse);
-    for (int i = 0; i < 4; i++)
-        f[i] = push[i] * n->twice_area[i];
+        v[i] = speed_at(air, point[i]);
+    const struct lanes3 u = lanes_of_rows(v),
+                        w = {air->wind[0] - u.x, air->wind[1] - u.y, air->wind[2] - u.z};
+    const lanes across = lanes_dot(w, f->turned) * f->inverse;
+    return air->factor * (across * lanes_size(across));
 }
 
 /* Adds to those of the three points that are the part's. */
@@ -82,21 +79,20 @@ static inline void add_to_own(const struct sim_part *part, row *rows, const uint
             rows[p[k]] += r;
 }
 
-/* Adds to those of all three; `air` NULL: only the normal. What is written might be p, for all that the compiler knows. */
-static inline void add_to_all(row *normals, row *air, const uint32_t *p, row normal, row force)
+/* Its corners, once: what is written might be among them, for all that the compiler knows. */
+struct corners {
+    size_t a, b, c;
+};
+
+static inline void add_to_all(row *rows, const struct corners *at, row r)
 {
-    const size_t a = p[0], b = p[1], c = p[2];
-    normals[a] += normal;
-    normals[b] += normal;
-    normals[c] += normal;
-    if (air) {
-        air[a] += force;
-        air[b] += force;
-        air[c] += force;
-    }
+    rows[at->a] += r;
+    rows[at->b] += r;
+    rows[at->c] += r;
 }
 
-INLINE void add_own_triangle(struct sim *sim, const struct sim_part *part, uint32_t t, bool unit,
+/* For the few that are not among four whole ones. */
+static void add_own_triangle(struct sim *sim, const struct sim_part *part, uint32_t t, bool unit,
                              const struct air *air)
 {
     const uint32_t *p = sim->triangle_point[t];
@@ -104,50 +100,61 @@ INLINE void add_own_triangle(struct sim *sim, const struct sim_part *part, uint3
         return;
     add_to_own(part, sim->rows.normal, p, triangle_normal(sim->rows.position, p, unit));
     if (air)
-        add_to_own(part, air->force, p, air_force(air, p, triangle_normal(sim->rows.position, p, false)));
+        add_to_own(part, sim->rows.force, p,
+                   air_force(air, p, triangle_normal(sim->rows.position, p, false)));
 }
 
-INLINE void add_coming(struct sim *sim, const struct sim_part *part, bool unit, const struct air *air)
+INLINE bool are_active(const unsigned char *active)
 {
-    for (uint32_t i = 0; i < part->triangle_in_count; i++)
-        add_own_triangle(sim, part, part->triangle_in[i], unit, air);
+    return active[0] & active[1] & active[2] & active[3];
 }
 
 INLINE void add_own_triangles(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk,
                               bool unit, const struct air *air)
 {
     const row *position = sim->rows.position;
-    row *normal = sim->rows.normal;
+    row *normal = sim->rows.normal, *force = sim->rows.force;
     const uint32_t(*point)[3] = (const uint32_t(*)[3])sim->triangle_point;
     const unsigned char *active = sim->triangle_active;
     const uint32_t inner_end = chunk->triangle_inner_end, end = chunk->triangle_end;
     uint32_t t = chunk->triangle_begin;
     for (; inner_end - t >= 4; t += 4) {
-        const struct normals n = normals_of_four(position, &point[t], unit);
-        row f[4] = {{0}};
-        if (air)
-            air_forces_of_four(air, &point[t], &n, f);
-        for (uint32_t i = 0; i < 4; i++)
-            if (active[t + i])
-                add_to_all(normal, air ? air->force : NULL, point[t + i], n.added[i], f[i]);
+        if (!are_active(&active[t])) {
+            for (uint32_t i = 0; i < 4; i++)
+                add_own_triangle(sim, part, t + i, unit, air);
+            continue;
+        }
+        const struct facets f = facets_of(position, &point[t]);
+        const lanes share = unit ? f.inverse : lanes_all(1),
+                    push = air ? air_pushes(air, &point[t], &f) : lanes_all(0);
+        for (int i = 0; i < 4; i++) {
+            const uint32_t *p = point[t + (uint32_t)i];
+            const struct corners at = {p[0], p[1], p[2]};
+            add_to_all(normal, &at, lanes_spread(share, i) * f.twice_area[i]);
+            if (air)
+                add_to_all(force, &at, lanes_spread(push, i) * f.twice_area[i]);
+        }
     }
     for (; t < end; t++)
         add_own_triangle(sim, part, t, unit, air);
 }
 
+INLINE void add_all_triangles(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk,
+                              bool unit, const struct air *air)
+{
+    for (uint32_t i = 0; i < part->triangle_in_count && chunk == part->chunks; i++)
+        add_own_triangle(sim, part, part->triangle_in[i], unit, air);
+    add_own_triangles(sim, part, chunk, unit, air);
+}
+
 INLINE void add_triangles(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk,
                           bool unit)
 {
-    if (sim->rows.air) {
-        const struct air air = air_of(sim);
-        if (chunk == part->chunks)
-            add_coming(sim, part, unit, &air);
-        add_own_triangles(sim, part, chunk, unit, &air);
-    } else {
-        if (chunk == part->chunks)
-            add_coming(sim, part, unit, NULL);
-        add_own_triangles(sim, part, chunk, unit, NULL);
-    }
+    const struct air air = air_of(sim);
+    if (sim->drag)
+        add_all_triangles(sim, part, chunk, unit, &air);
+    else
+        add_all_triangles(sim, part, chunk, unit, NULL);
 }
 
 #endif

@@ -14,7 +14,7 @@ struct sim_kernels {
     void (*clear_points)(struct sim *sim, const struct sim_chunk *chunk);
     void (*coming_forces)(struct sim *sim, const struct sim_part *part); /* of edges of lower parts */
     void (*edge_forces)(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk);
-    /* Also of triangles of lower parts, with the first chunk; and the air's resistance (effect_drag.c). */
+    /* Also of triangles of lower parts, with the first chunk; and the air's resistance (effect_drag.c), which it adds to forces. */
     void (*triangle_normals)(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk);
     void (*pressure_forces)(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk);
     /* How many of the active edges that begin in this part are longer than the threshold. */
@@ -32,6 +32,15 @@ struct sim_kernels {
     /* The smallest and largest coordinates of points from begin to end - 1, at least one, from sim->before to now. */
     void (*box_ways)(const struct sim *sim, uint32_t begin, uint32_t end, double box[2][4]);
 };
+
+/* Whether the skin's forces of chunk `next` must be there before kernels_press() comes to chunk `now`. Where there is drag, the air's are
+ * added to them: on each point after all of the skin's, so that the sum is the same however the points are shared out. */
+static inline bool kernels_skin_is_due(const struct sim *sim, const struct sim_part *part,
+                                       const struct sim_chunk *next, const struct sim_chunk *now)
+{
+    return next <= now ||
+           (sim->drag && next < part->chunks + part->chunk_count && next->point_begin < now->clear_end);
+}
 
 /* Parts 3 and 4 for a chunk: what the pressure does, or what it will act on. */
 static inline void kernels_press(const struct sim_kernels *k, struct sim *sim, const struct sim_part *part,

@@ -97,6 +97,19 @@ static inline struct lanes3 lanes_sum(lanes s, struct lanes3 a, lanes t, struct 
     return (struct lanes3){s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z};
 }
 
+/* One of its numbers, four times; `i` is known when it is compiled. GCC 12 would take numbers but the first out one by one. */
+INLINE row lanes_spread(lanes a, int i)
+{
+#ifdef SIM_WIDE
+    const lanes spread[4] = {
+        __builtin_shufflevector(a, a, 0, 0, 0, 0), __builtin_shufflevector(a, a, 1, 1, 1, 1),
+        __builtin_shufflevector(a, a, 2, 2, 2, 2), __builtin_shufflevector(a, a, 3, 3, 3, 3)};
+    return (row)spread[i];
+#else
+    return (row){a[i], a[i], a[i], a[i]};
+#endif
+}
+
 /* The turned table: row i of in is column i of out. Where the machine has no vectors of four, numbers move one by one. */
 static inline void lanes_turn(const row in[4], row out[4])
 {

@@ -175,8 +175,6 @@ struct sim {
     const struct sim_kernels *kernels;
     struct {
         void *position, *velocity, *force, *normal; /* [point_count] what the kernels work on */
-        void *
-            air; /* likewise: what it does to each point, between evaluations 0 (effect_drag.c); NULL: no drag */
     } rows;
 
     const struct integrator *integrator;
@@ -217,7 +215,7 @@ struct sim {
     struct needles *needles;     /* how near they are (effect_needles.c); NULL: there are none */
     struct contact *contact;     /* what keeps skins apart (contact.h); NULL: nothing */
     double *hinge_pull; /* [edge_count] of skin that resists being bent (bending_passes.h); NULL: none does */
-    struct air_drag *drag; /* what the air's resistance remembers (effect_drag.c) */
+    struct air_drag *drag; /* what the air's resistance remembers (effect_drag.c); NULL: there is none */
     struct hand *hand;     /* that pulls at it (live_hand.h); NULL: none */
     uint64_t fingerprint;  /* checkpoint_fingerprint() before anything was cut; 0: nothing can be */
     uint64_t

@@ -32,12 +32,15 @@ static void skin_forces(struct sim *sim, const struct sim_part *part, const stru
 static void part_forces(struct sim *sim, const struct sim_part *part, void *move)
 {
     const struct sim_kernels *k = sim->kernels;
+    const struct sim_chunk *next = part->chunks;
     sweep_begin(sim, part);
     for (const struct sim_chunk *c = part->chunks; c < part->chunks + part->chunk_count; c++) {
-        k->clear_points(sim, c); /* 1  forces and normals are 0             */
-        if (c == part->chunks)
-            coming_skin(sim, part);
-        skin_forces(sim, part, c);      /* 2  springs and dampers, or a membrane   */
+        for (; kernels_skin_is_due(sim, part, next, c); next++) {
+            k->clear_points(sim, next); /* 1  forces and normals are 0             */
+            if (next == part->chunks)
+                coming_skin(sim, part);
+            skin_forces(sim, part, next); /* 2  springs and dampers, or a membrane   */
+        }
         kernels_press(k, sim, part, c); /* 3  face normals, added to the points    */
                                         /* 4  pressure along each point's normal   */
         if (move)

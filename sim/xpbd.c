@@ -93,10 +93,13 @@ static void outer_part(struct sim *sim, const struct sim_part *part, void *conte
 {
     (void)context;
     const struct sim_kernels *k = sim->kernels;
+    const struct sim_chunk *next = part->chunks;
     for (const struct sim_chunk *c = part->chunks; c < part->chunks + part->chunk_count; c++) {
-        k->clear_points(sim, c);
-        if (part->balloon->arm_count > 0)
-            k->arm_forces(sim, part, c);
+        for (; kernels_skin_is_due(sim, part, next, c); next++) {
+            k->clear_points(sim, next);
+            if (part->balloon->arm_count > 0)
+                k->arm_forces(sim, part, next);
+        }
         kernels_press(k, sim, part, c);
     }
 }
