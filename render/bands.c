@@ -26,7 +26,7 @@ struct band {
 enum status render_bind_band(struct render *render, const struct render_view *view, struct error *err)
 {
     int rows = BAND_PIXELS / view->width < view->height ? BAND_PIXELS / view->width : view->height;
-    const int samples = view->smooth_edges && !render_in_light(view) ? 4 : 1;
+    const int samples = view->outlines == RENDER_SAMPLED && !render_in_light(view) ? 4 : 1;
     return target_bind(&render->target, &render->gl, view->width, rows, samples, err);
 }
 
@@ -35,11 +35,18 @@ bool render_in_light(const struct render_view *view)
     return view->style == RENDER_LATEX || view->order > RENDER_SORT || view->samples > 1;
 }
 
+static bool is_filtered(const struct render_view *view)
+{
+    return view->outlines == RENDER_FILTERED && view->samples <= 1;
+}
+
 enum status render_ready(struct render *render, const struct render_view *view, struct error *err)
 {
     enum status status = STATUS_OK;
     if (stereo_is_mixed(view->stereo) && !render->stereo.program)
         status = stereo_open(&render->stereo, &render->gl, err);
+    if (!status && is_filtered(view) && !render->outlines.program)
+        status = outlines_open(&render->outlines, &render->gl, err);
     if (status || !render_in_light(view))
         return status;
     if (!render->light.tone)
@@ -175,7 +182,7 @@ static enum status draw_strip(struct band *band, const int strip[4], struct erro
     const struct gl *gl = &render->gl;
     const int side = view->samples > 1 ? view->samples : 1;
     const bool latex = view->style == RENDER_LATEX;
-    const bool smooth = view->smooth_edges && side == 1 && view->order <= RENDER_SORT;
+    const bool smooth = view->outlines == RENDER_SAMPLED && side == 1 && view->order <= RENDER_SORT;
     enum status status = light_bind(&render->light, gl, strip[2] * side, strip[3] * side, smooth ? 4 : 1,
                                     err);
     if (status)
@@ -220,6 +227,19 @@ static enum status draw_in_light(struct band *band, struct error *err)
     return status;
 }
 
+/* Those of all that is drawn, within its box. */
+static void filter_outlines(struct band *band)
+{
+    struct render *render = band->render;
+    const int *eye = band->place.viewport;
+    int box[4];
+    find_box(band, box);
+    place_eye(band);
+    if (box[2] && box[3])
+        outlines_filter(&render->outlines, &render->gl, &render->target, box);
+    render->gl.Viewport(eye[0], eye[1], eye[2], eye[3]);
+}
+
 static enum status draw_one_eye(struct band *band, struct error *err)
 {
     struct render *render = band->render;
@@ -229,10 +249,12 @@ static enum status draw_one_eye(struct band *band, struct error *err)
     place_eye(band);
     if (render_in_light(band->view))
         status = draw_in_light(band, err);
-    else if (band->view->smooth_edges)
+    else if (band->view->outlines == RENDER_SAMPLED)
         draw_smoothly(band);
     else
         draw_all(band);
+    if (!status && is_filtered(band->view))
+        filter_outlines(band);
     place_eye(band);
     overlay_draw_text(&render->overlay, gl, band->eye);
     gl->Disable(GL_SCISSOR_TEST);

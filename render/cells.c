@@ -103,7 +103,7 @@ static void fill(struct cells *cells, const struct geometry *g)
 
 bool cells_are_worth_it(const struct geometry *g, const struct render_view *view)
 {
-    const bool smooth = view->smooth_edges && view->samples <= 1;
+    const bool smooth = view->outlines == RENDER_SAMPLED && view->samples <= 1;
     return view->order == RENDER_SORT && !smooth && g->translucent.count >= TRIANGLES_LEAST;
 }
 

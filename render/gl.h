@@ -29,6 +29,7 @@
     X(ColorMask, COLORMASK)                                           \
     X(CompileShader, COMPILESHADER)                                   \
     X(CopyTexImage2D, COPYTEXIMAGE2D)                                 \
+    X(CopyTexSubImage2D, COPYTEXSUBIMAGE2D)                           \
     X(CreateProgram, CREATEPROGRAM)                                   \
     X(CreateShader, CREATESHADER)                                     \
     X(DeleteBuffers, DELETEBUFFERS)                                   \
@@ -81,6 +82,7 @@
     X(Uniform1ui, UNIFORM1UI)                                         \
     X(Uniform2f, UNIFORM2F)                                           \
     X(Uniform2i, UNIFORM2I)                                           \
+    X(Uniform4i, UNIFORM4I)                                           \
     X(Uniform3fv, UNIFORM3FV)                                         \
     X(UniformMatrix4fv, UNIFORMMATRIX4FV)                             \
     X(UseProgram, USEPROGRAM)                                         \

@@ -6,6 +6,7 @@
 #include "render/context.h"
 #include "render/draw.h"
 #include "render/light.h"
+#include "render/outlines.h"
 #include "render/overlay_draw.h"
 #include "render/program.h"
 #include "render/solid_draw.h"
@@ -23,8 +24,9 @@ struct render {
     struct quads quads;
     struct target target;
     struct behind behind;
-    struct light light;   /* open only once a picture wants it */
-    struct stereo stereo; /* the same */
+    struct light light;       /* open only once a picture wants it */
+    struct stereo stereo;     /* the same */
+    struct outlines outlines; /* the same */
     struct geometry geometry;
     struct cells cells[2]; /* of each eye, where triangles are sorted */
     struct {

@@ -164,6 +164,7 @@ void render_close(struct render *render)
         behind_clear(&render->behind, &render->gl);
         light_close(&render->light, &render->gl);
         stereo_close(&render->stereo, &render->gl);
+        outlines_close(&render->outlines, &render->gl);
         draw_close(&render->draw, &render->gl);
         solid_draw_close(&render->solid, &render->gl);
         overlay_close(&render->overlay, &render->gl);

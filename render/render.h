@@ -61,6 +61,13 @@ enum render_order {
     RENDER_LIST, /* exact: a list for each pixel; peeled where OpenGL has no storage buffers (4.3) */
 };
 
+/* How outlines are drawn where each pixel has one sample. */
+enum render_outlines {
+    RENDER_ROUGH,    /* a pixel is within or without */
+    RENDER_FILTERED, /* drawn rough, and then their steps smoothed: nearly as good as the next, for much less */
+    RENDER_SAMPLED, /* with four samples a pixel; rough where order is exact */
+};
+
 enum { RENDER_SAMPLES_MAX = 4 };
 
 struct render_view {
@@ -71,9 +78,8 @@ struct render_view {
     enum render_style style;
     enum render_order order;
     int samples; /* each pixel is the mean of samples x samples; 0 or 1: one, at most RENDER_SAMPLES_MAX */
-    bool
-        smooth_edges; /* outlines are drawn with four samples a pixel: not with several `samples`, nor where order is exact */
-    bool floor; /* a soft shadow lies on the plane y = floor_height */
+    enum render_outlines outlines; /* not looked at with several `samples` */
+    bool floor;                    /* a soft shadow lies on the plane y = floor_height */
     double floor_height;
 };
 

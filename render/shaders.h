@@ -14,7 +14,7 @@ extern const char shader_paper_vertex[], shader_paper_blended[], shader_paper_pe
 extern const char shader_latex_vertex[], shader_latex_blended[], shader_latex_peeled[], shader_latex_listed[];
 extern const char shader_whole_vertex[], shader_tone_fragment[], shader_layer_fragment[],
     shader_list_fragment[];
-extern const char shader_stereo_fragment[];
+extern const char shader_outlines_fragment[], shader_stereo_fragment[];
 extern const char shader_solid_vertex[], shader_solid_fragment[];
 extern const char shader_line_vertex[], shader_line_fragment[];
 extern const char shader_text_vertex[], shader_text_fragment[];

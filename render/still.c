@@ -22,7 +22,7 @@ static enum status draw_still(const struct render_skin *skin, int width, int hei
 {
     static const double from[3] = {0.55, 0.45, 1};
     struct render_view view = {
-        .width = width, .height = height, .order = RENDER_SORT, .smooth_edges = true, .floor = true};
+        .width = width, .height = height, .order = RENDER_SORT, .outlines = RENDER_SAMPLED, .floor = true};
     struct render *render = NULL;
     double low[3], high[3];
     find_bounds(skin->mesh, low, high);

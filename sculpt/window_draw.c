@@ -71,8 +71,8 @@ static enum status draw_sculpture(struct app *app, const struct render_view *vie
         return status;
     const double drawn = app_seconds();
     struct render_view smooth = *view;
-    smooth.smooth_edges = !moving && app->shown == &app->levels[rest] &&
-                          render_solid_faces(app->shown->solid) < FACES_SMOOTH;
+    if (!moving && app->shown == &app->levels[rest] && render_solid_faces(app->shown->solid) < FACES_SMOOTH)
+        smooth.outlines = RENDER_SAMPLED;
     scene->solid = app->shown->solid;
     status = render_show(app->render, &smooth, scene, err);
     if (moving && app->shown == &app->levels[level])
@@ -96,7 +96,7 @@ void app_draw(struct app *app)
         status = draw_sculpture(app, &view, &scene, &err);
     } else {
         view.order = RENDER_SORT;
-        view.smooth_edges = true;
+        view.outlines = RENDER_SAMPLED;
         if (app->open)
             scene.skins = balloon_skins(&app->balloon, &scene.skin_count, &view.camera);
         status = render_show(app->render, &view, &scene, &err);
@@ -108,7 +108,7 @@ void app_draw(struct app *app)
 
 enum status app_preview(struct app *app, struct bytes *png, struct error *err)
 {
-    struct render_view view = {.width = PREVIEW_WIDTH, .height = PREVIEW_HEIGHT, .smooth_edges = true};
+    struct render_view view = {.width = PREVIEW_WIDTH, .height = PREVIEW_HEIGHT, .outlines = RENDER_SAMPLED};
     struct render_scene scene = {0};
     struct image image = {0};
     struct orbit orbit = orbit_start();

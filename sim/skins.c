@@ -125,7 +125,7 @@ void skins_camera(const struct sim *sim, const double centre[3], double radius, 
     camera->screen_distance = vec3_distance(camera->eye, camera->target);
     camera->eye_distance = scene->eye_distance * camera->screen_distance;
     skins_view(scene, view);
-    view->smooth_edges = true;
+    view->outlines = RENDER_SAMPLED;
     view->floor = true;
     view->floor_height = centre[1] - 1.8 * radius; /* it floats, with room to swell */
 }

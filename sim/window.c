@@ -207,7 +207,7 @@ static void set_camera(struct app *app)
     app->film_view = app->view;
     app->view.order = RENDER_SORT; /* live; films are as the scene says */
     app->view.samples = 1;
-    app->view.smooth_edges = true;
+    app->view.outlines = RENDER_SAMPLED;
     app->view.floor = true;
     app->view.floor_height = app->ball[1] - 1.8 * radius; /* as in the film */
 }

@@ -70,8 +70,8 @@ struct app {
     int pictures;
     struct {
         bool on;
-        double wait, until; /* s; app_seconds() when smooth ones are tried again */
-    } rough;                /* outlines, where smooth ones would be too slow to move */
+        double wait, until; /* s; app_seconds() when sampled ones are tried again */
+    } filtered;             /* outlines, where sampled ones would be too slow to move */
     bool stale;             /* the state is another than the log's last row */
 
     struct frames *film; /* being recorded; NULL: nothing is */

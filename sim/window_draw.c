@@ -21,10 +21,10 @@ static const double longest_scale = 6;
 
 static const double count_seconds = 0.5; /* pictures are counted over */
 
-/* Below so many frames a second outlines are drawn rough: the plain skin can be as quick as pictures come, one every sixtieth of a second, or nearly. */
+/* Below so many frames a second outlines are filtered: the plain skin can be as quick as pictures come, one every sixtieth of a second, or nearly. */
 static const double slow_rate[] = {[RENDER_PAPER] = 55, [RENDER_LATEX] = 40};
 
-/* Smooth ones are tried again after so many seconds, and then after twice as many, up to the most. */
+/* Sampled ones are tried again after so many seconds, and then after twice as many, up to the most. */
 static const double first_wait = 4, longest_wait = 64;
 
 double app_stretch_most(const struct app *app)
@@ -156,8 +156,8 @@ struct render_view app_drawn_view(const struct app *app)
     orbit_make_even(&view);
     orbit_camera(&app->orbit, &view.camera);
     view.camera.eye_distance = app->eye_distance * app->orbit.distance;
-    if (app->rough.on && !app->live.paused)
-        view.smooth_edges = false;
+    if (app->filtered.on && !app->live.paused)
+        view.outlines = RENDER_FILTERED;
     if (app->stretch_colours)
         view.style = RENDER_PAPER; /* whose colours are those that it is given */
     return view;
@@ -182,17 +182,18 @@ static enum status make_scene(struct app *app, struct render_scene *scene, struc
     return STATUS_OK;
 }
 
-/* Smooth outlines cost about as much as all the rest: a skin that moves in jerks is worse than one with rough outlines. */
+/* Outlines of several samples cost about as much as all the rest, those that are filtered a fifth of it and look nearly the same: the
+ * eye sees the skin moving in jerks long before it sees the difference. */
 static void choose_outlines(struct app *app, double now)
 {
     if (app->live.paused)
         return;
-    if (app->rough.on && now >= app->rough.until) {
-        app->rough.on = false;
-    } else if (!app->rough.on && app->frames_rate < slow_rate[app_drawn_view(app).style]) {
-        app->rough.on = true;
-        app->rough.wait = fmin(fmax(2 * app->rough.wait, first_wait), longest_wait);
-        app->rough.until = now + app->rough.wait;
+    if (app->filtered.on && now >= app->filtered.until) {
+        app->filtered.on = false;
+    } else if (!app->filtered.on && app->frames_rate < slow_rate[app_drawn_view(app).style]) {
+        app->filtered.on = true;
+        app->filtered.wait = fmin(fmax(2 * app->filtered.wait, first_wait), longest_wait);
+        app->filtered.until = now + app->filtered.wait;
     }
 }
 
@@ -239,6 +240,6 @@ enum status app_draw_image(struct app *app, struct error *err)
     orbit_make_even(&view);
     view.order = app->film_view.order;
     view.samples = app->film_view.samples;
-    view.smooth_edges = app->view.smooth_edges;
+    view.outlines = app->view.outlines;
     return status ? status : render_draw_scene(app->render, &view, &scene, &app->image, err);
 }

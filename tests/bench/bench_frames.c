@@ -134,28 +134,31 @@ static void measure(struct scene *scene, const char *name, int asked, struct fra
     fflush(stdout);
 }
 
-/* Every style and order, as live (smooth outlines or not) and as final frames (2 x 2 samples). */
+static const char *const outlines[] = {
+    [RENDER_ROUGH] = "rough", [RENDER_FILTERED] = "filtered", [RENDER_SAMPLED] = "sampled"};
+
+/* Every style and order, as live (with each kind of outlines) and as final frames (2 x 2 samples). */
 static void draw_all_ways(void)
 {
     static const char *const styles[] = {"paper", "latex"}, *const orders[] = {"none", "sort", "peel",
                                                                                "list"};
     static const int sizes[][2] = {{39, 40}, {100, 101}};
-    printf("style\torder\tsamples\tsmooth\ttriangles\tclock ms\tthread ms\tprocessor ms\n");
+    printf("style\torder\tsamples\toutlines\ttriangles\tclock ms\tthread ms\tprocessor ms\n");
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         struct scene scene;
         open_scene(&scene, sizes[i][0], sizes[i][1]);
-        for (int way = 0; way < 2 * 4 * 3; way++) {
-            const int samples = way / 8 + 1;
+        for (int way = 0; way < 2 * 4 * 4; way++) {
+            const bool final = way / 8 == 3;
             scene.view.style = way & 1 ? RENDER_LATEX : RENDER_PAPER;
             scene.view.order = (enum render_order)(way >> 1 & 3);
-            scene.view.samples = samples == 3 ? 2 : 1;
-            scene.view.smooth_edges = samples == 2;
-            if (samples == 2 && scene.view.order > RENDER_SORT)
+            scene.view.samples = final ? 2 : 1;
+            scene.view.outlines = final ? RENDER_ROUGH : (enum render_outlines)(way / 8);
+            if (scene.view.outlines == RENDER_SAMPLED && scene.view.order > RENDER_SORT)
                 continue;
             draw(&scene, 0);
             const struct cost cost = draw_ms(&scene);
-            printf("%s\t%s\t%d\t%d\t%u\t%.2f\t%.2f\t%.2f\n", styles[way & 1], orders[way >> 1 & 3],
-                   scene.view.samples, scene.view.smooth_edges, scene.mesh.triangle_count, cost.clock,
+            printf("%s\t%s\t%d\t%s\t%u\t%.2f\t%.2f\t%.2f\n", styles[way & 1], orders[way >> 1 & 3],
+                   scene.view.samples, outlines[scene.view.outlines], scene.mesh.triangle_count, cost.clock,
                    cost.thread, cost.process);
             fflush(stdout);
         }
@@ -193,7 +196,7 @@ static void share_of_sorting(struct scene *scene, const char *style)
     }
     const double each = 1e3 / SAMPLES;
     printf("%s\t%u\t%d\t%.2f\t%.2f\t%.2f\t%.2f\t%.1f %%\t%.1f %%\n", style, scene->mesh.triangle_count,
-           scene->view.smooth_edges, plain, sorted, sorting * each, celling * each,
+           scene->view.outlines == RENDER_SAMPLED, plain, sorted, sorting * each, celling * each,
            100 * sorting * each / sorted, 100 * (sorted - plain) / sorted);
     fflush(stdout);
     geometry_clear(&geometry);
@@ -210,7 +213,7 @@ static void sort_all_sizes(void)
         open_scene(&scene, sizes[i][0], sizes[i][1]);
         for (int way = 0; way < 4; way++) {
             scene.view.style = way & 1 ? RENDER_LATEX : RENDER_PAPER;
-            scene.view.smooth_edges = way & 2;
+            scene.view.outlines = way & 2 ? RENDER_SAMPLED : RENDER_ROUGH;
             share_of_sorting(&scene, way & 1 ? "latex" : "paper");
         }
         close_scene(&scene);
@@ -236,7 +239,7 @@ int main(void)
     printf("written\tdraw ms\tencode ms\tframe ms\tratio\tprocessor ms/2\tall s\tasked s\n");
     measure(&scene, "PNG, paper", 0, (struct frames_options){.folder = "f"});
     scene.view.style = RENDER_LATEX;
-    scene.view.smooth_edges = true;
+    scene.view.outlines = RENDER_SAMPLED;
     measure(&scene, "PNG, sorted, smooth", 12, (struct frames_options){.folder = "f"});
     measure(&scene, "and a sheet", 0, (struct frames_options){.folder = "f", .sheet = "sheet.png"});
     if (!system("command -v ffmpeg >/dev/null"))

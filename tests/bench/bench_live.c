@@ -17,7 +17,7 @@ struct tally {
     double seconds[STAGES];      /* by the clock, in the window's own thread */
     double opened, began, clock; /* s */
     double thread, process;      /* s on processors: of that thread, of all */
-    int pictures, rough;
+    int pictures, filtered;
 };
 
 /* Both processes see it: the window runs in a child, since a process can have but one. */
@@ -115,7 +115,7 @@ void __wrap_app_draw(struct app *app)
         end(app, now);
     __real_app_draw(app);
     tally->pictures += tally->began > 0 && tally->clock == 0;
-    tally->rough += tally->began > 0 && tally->clock == 0 && app->rough.on;
+    tally->filtered += tally->began > 0 && tally->clock == 0 && app->filtered.on;
 }
 
 /* A skin that all can be seen through, swelling as long as the window is open. */
@@ -152,7 +152,7 @@ static void measure(const char *mesh_name, const char *style, const char *triang
         exit(1);
     const double each = 1e3 / tally->pictures, *s = tally->seconds;
     printf("%s\t%s\t%.1f\t%d\t%.0f %%\t%.2f\t%.2f\t%.2f\t%.2f\t%.2f\t%.2f\t%.2f\n", style, triangles,
-           tally->pictures / tally->clock, asked, 100.0 * tally->rough / tally->pictures, s[STEPS] * each,
+           tally->pictures / tally->clock, asked, 100.0 * tally->filtered / tally->pictures, s[STEPS] * each,
            s[SKINS] * each, s[ORDER] * each, (s[SHOW] - s[ORDER]) * each, s[PRESENT] * each,
            tally->thread * each, tally->process * each);
     fflush(stdout);
@@ -170,7 +170,7 @@ int main(int argc, char **argv)
                                 "--triangles", "100000", "-o", path, NULL});
     printf(
         "1280 x 480 stereo, sorted, running; ms a picture\n"
-        "style\ttriangles\tframes/s\tasked\trough\tsteps\tskins\torder\tdraw\tpresent\tthread\tprocessor\n");
+        "style\ttriangles\tframes/s\tasked\tfiltered\tsteps\tskins\torder\tdraw\tpresent\tthread\tprocessor\n");
     measure(argv[3], "latex", "3 thousand", 40);
     measure(argv[3], "paper", "3 thousand", 60);
     measure(path, "latex", "100 thousand", 8);

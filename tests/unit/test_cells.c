@@ -119,7 +119,7 @@ static void where_samples_would_be_lost_there_are_none(void **state)
     struct geometry g = {.translucent = {.count = 100000}};
     struct render_view view = {.order = RENDER_SORT};
     assert_true(cells_are_worth_it(&g, &view));
-    view.smooth_edges = true;
+    view.outlines = RENDER_SAMPLED;
     assert_false(cells_are_worth_it(&g, &view));
     view.samples = 2; /* these are several pixels, and nothing is lost */
     assert_true(cells_are_worth_it(&g, &view));

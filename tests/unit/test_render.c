@@ -138,7 +138,7 @@ static void a_camera_inside_the_balloon_sees_its_wall(void **state)
     struct render_skin skin = {.mesh = &mesh, .colour = {1, 0, 0}};
     struct render_view view = square_view();
     view.camera.eye[2] = 0.2;
-    view.smooth_edges = true;
+    view.outlines = RENDER_SAMPLED;
     struct image image = drawn(&view, &skin, 1);
     for (int i = 0; i < 200; i += 13)
         assert_true(is_red(pixel(&image, i, i)));
@@ -210,7 +210,8 @@ static void an_empty_mesh_is_drawn_as_nothing(void **state)
     struct mesh mesh = {0};
     struct render_skin skin = {.mesh = &mesh, .colour = {1, 0, 0}};
     struct render_view view = square_view();
-    view.floor = view.smooth_edges = true;
+    view.floor = true;
+    view.outlines = RENDER_SAMPLED;
     struct image image = drawn(&view, &skin, 1), without = drawn(&view, NULL, 0);
     assert_same_picture(&image, &without);
     image_clear(&image);
@@ -226,8 +227,8 @@ static void large_pictures_have_no_seam(void **state)
     struct render_skin skin = skin_of(&cards, 1, 0, 0);
     struct render_view view = square_view();
     view.width = view.height = 2100;
-    for (int smooth = 0; smooth < 2; smooth++) {
-        view.smooth_edges = smooth;
+    for (int outlines = RENDER_ROUGH; outlines <= RENDER_SAMPLED; outlines++) {
+        view.outlines = (enum render_outlines)outlines;
         struct image image = drawn(&view, &skin, 1);
         double middle[2];
         assert_int_equal(red_middle(&image, 0, 2100, middle), 1050 * 1575);

@@ -36,7 +36,7 @@ static void smooth_edges_change_outlines_only(void **state)
     struct render_skin skin = {.mesh = &mesh, .colour = {0.7f, 0.1f, 0.1f}};
     struct render_view view = square_view();
     struct image plain = drawn(&view, &skin, 1);
-    view.smooth_edges = true;
+    view.outlines = RENDER_SAMPLED;
     struct image smooth = drawn(&view, &skin, 1);
     int changed = 0;
     for (int y = 0; y < 200; y++)

@@ -233,8 +233,8 @@ static void test_lines_have_their_width_and_place(void **state)
     (void)state;
     struct render_view view = square_view();
     const struct render_line line = line_at(0, 0, false); /* the border of rows 99 and 100 */
-    for (int smooth = 0; smooth < 2; smooth++) {
-        view.smooth_edges = smooth;
+    for (int outlines = RENDER_ROUGH; outlines <= RENDER_SAMPLED; outlines++) {
+        view.outlines = (enum render_outlines)outlines;
         struct image image = drawn(&view, &(struct render_scene){.lines = &line, .line_count = 1});
         for (int y = 0; y < 200; y++)
             assert_int_equal(is_green(pixel(&image, 100, y)), y >= 98 && y < 102);

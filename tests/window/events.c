@@ -118,7 +118,7 @@ int main(void)
                                                 .motion = motion,
                                                 .timer = timer,
                                                 .close = may_close};
-    struct events e = {.view = {.width = 320, .height = 240, .smooth_edges = true}};
+    struct events e = {.view = {.width = 320, .height = 240, .outlines = RENDER_SAMPLED}};
     struct orbit orbit = orbit_start();
     struct error err;
     setvbuf(stdout, NULL, _IOLBF, 0);
