@@ -104,7 +104,7 @@ struct contact {
     } * share;              /* [part_count] owned */
 };
 
-/* contact_pairs.c: finds the pairs for the lines and the reaches at hand, from the present step's beginning on: all, or those of the points in c->again,
+/* contact_pairs.c, contact_again.c: find the pairs for the lines and the reaches at hand, from the present step's beginning on: all, or those of the points in c->again,
  * in place of those that are known. STATUS_RANGE when more is near than there is room for. */
 enum status contact_pairs_find(struct sim *sim, struct error *err);
 enum status contact_pairs_find_again(struct sim *sim, struct error *err);

@@ -28,38 +28,36 @@ static bool is_whole(const struct sim *sim, uint32_t t)
     return sim->edge_active[e[0]] && sim->edge_active[e[1]] && sim->edge_active[e[2]];
 }
 
-static void box_triangle(const struct contact_tree *tree, const uint32_t p[3], struct contact_box *box)
+void contact_tree_cell(const struct contact_tree *tree, const struct sim *sim, uint32_t leaf,
+                       struct contact_cell *cell)
 {
-    *box = tree->point[p[0]];
-    contact_box_join(box, &tree->point[p[1]]);
-    contact_box_join(box, &tree->point[p[2]]);
-}
-
-/* The boxes of the triangles that a leaf lists, of the edges that it stands for, and its own. */
-static void box_leaf(const struct contact_tree *tree, const struct sim *sim, struct contact_node *node)
-{
-    const struct contact_leaf *leaf = &tree->leaves[node->number];
-    for (uint32_t i = node->begin; i < node->end; i++) {
-        const uint32_t t = tree->order[i];
-        tree->box[i] = contact_box_empty();
-        if (sim->triangle_active[t])
-            box_triangle(tree, sim->triangle_point[t], &tree->box[i]);
-        contact_box_join(&node->box, &tree->box[i]);
+    const struct contact_node *node = &tree->nodes[leaf];
+    const struct contact_leaf *stands = &tree->leaves[node->number];
+    cell->leaf = leaf;
+    cell->triangles = (struct contact_group){cell->triangle, node->end - node->begin, &node->box};
+    cell->points = (struct contact_group){cell->point, stands->point_end - stands->point_begin, &node->box};
+    cell->edges = (struct contact_group){cell->edge, stands->edge_end - stands->edge_begin, &node->box};
+    for (uint32_t i = 0; i < cell->triangles.count; i++) {
+        const uint32_t t = tree->order[node->begin + i], *p = sim->triangle_point[t];
+        cell->triangle[i] = sim->triangle_active[t] ? contact_box_triangle(tree->point, p)
+                                                    : contact_box_empty();
     }
-    for (uint32_t i = leaf->edge_begin; i < leaf->edge_end; i++) {
-        const uint32_t *ends = sim->edge_point[tree->leaf_edge[i]];
-        tree->edge_box[i] = tree->point[ends[0]];
-        contact_box_join(&tree->edge_box[i], &tree->point[ends[1]]);
-    }
+    for (uint32_t i = 0; i < cell->edges.count; i++)
+        cell->edge[i] = contact_box_edge(tree->point,
+                                         sim->edge_point[tree->leaf_edge[stands->edge_begin + i]]);
+    for (uint32_t i = 0; i < cell->points.count; i++)
+        cell->point[i] = tree->point[tree->leaf_point[stands->point_begin + i]];
 }
 
 static void fit_leaf(const struct contact_tree *tree, const struct sim *sim, struct contact_node *node)
 {
-    box_leaf(tree, sim, node);
     for (uint32_t i = node->begin; i < node->end; i++) {
         const uint32_t t = tree->order[i];
-        if (sim->triangle_active[t])
-            node->sides &= is_whole(sim, t) ? tree->side[t] : 0;
+        if (!sim->triangle_active[t])
+            continue;
+        for (int k = 0; k < 3; k++)
+            contact_box_join(&node->box, &tree->point[sim->triangle_point[t][k]]);
+        node->sides &= is_whole(sim, t) ? tree->side[t] : 0;
     }
 }
 
@@ -132,9 +130,8 @@ static bool open_patch(struct contact_tree *tree, uint32_t node)
 }
 
 /* All that a triangle is in, up to the root. */
-static bool widen(struct contact_tree *tree, uint32_t t, uint32_t sides)
+static bool widen(struct contact_tree *tree, uint32_t t, const struct contact_box *box, uint32_t sides)
 {
-    const struct contact_box *box = &tree->nodes[tree->leaf[t]].box;
     for (uint32_t node = tree->leaf[t];; node = tree->nodes[node].parent) {
         struct contact_node *n = &tree->nodes[node];
         contact_box_join(&n->box, box);
@@ -158,8 +155,8 @@ bool contact_tree_refit(struct contact_tree *tree, struct sim *sim, const struct
         const uint32_t t = triangles[i];
         if (!sim->triangle_active[t])
             continue;
-        box_leaf(tree, sim, &tree->nodes[tree->leaf[t]]);
-        if (!widen(tree, t, is_whole(sim, t) ? tree->side[t] : 0))
+        const struct contact_box box = contact_box_triangle(tree->point, sim->triangle_point[t]);
+        if (!widen(tree, t, &box, is_whole(sim, t) ? tree->side[t] : 0))
             return false;
     }
     return true;

@@ -2,6 +2,73 @@
 #include "sim/contact_kernels.h"
 #include "sim/lanes.h"
 
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
+/* One end of a box: its low and its high corner side by side. */
+typedef float extent __attribute__((vector_size(8 * sizeof(float)), aligned(4 * sizeof(float)), may_alias));
+typedef int32_t extent_mask __attribute__((vector_size(8 * sizeof(int32_t))));
+
+static inline bool any_negative(extent_mask mask)
+{
+#ifdef __AVX__
+    return _mm256_movemask_ps((__m256)mask) != 0;
+#else
+    const struct {
+        box_mask half[2];
+    } *halves = (const void *)&mask;
+    return box_any_negative(halves->half[0] | halves->half[1]);
+#endif
+}
+
+/* A box with its corners changed round, so that sums with another box's are of a low one and a high one each. */
+struct turned {
+    extent at[2];
+};
+
+static inline struct turned turn(const struct contact_box *box)
+{
+    const extent *at = (const extent *)box->at;
+    return (struct turned){{__builtin_shufflevector(at[0], at[0], 4, 5, 6, 7, 0, 1, 2, 3),
+                            __builtin_shufflevector(at[1], at[1], 4, 5, 6, 7, 0, 1, 2, 3)}};
+}
+
+/* contact_boxes_meet() */
+static inline bool meets(const struct turned *a, const struct contact_box *b)
+{
+    const extent *at = (const extent *)b->at;
+    return !any_negative((extent_mask)(a->at[0] + at[0]) & (extent_mask)(a->at[1] + at[1]));
+}
+
+/* Those of a group that meet the box that another is in. */
+static inline uint32_t sift(const struct contact_group *group, const struct contact_box *all, uint8_t *kept)
+{
+    const struct turned turned = turn(all);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < group->count; i++) {
+        kept[count] = (uint8_t)i;
+        count += meets(&turned, &group->box[i]);
+    }
+    return count;
+}
+
+static uint32_t meet(const struct contact_group *a, const struct contact_group *b, uint8_t (*couples)[2])
+{
+    uint8_t first[UINT8_MAX], second[UINT8_MAX];
+    const uint32_t firsts = sift(a, b->all, first), seconds = firsts ? sift(b, a->all, second) : 0;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < firsts; i++) {
+        const struct turned turned = turn(&a->box[first[i]]);
+        for (uint32_t j = 0; j < seconds; j++) {
+            couples[count][0] = first[i];
+            couples[count][1] = second[j];
+            count += meets(&turned, &b->box[second[j]]);
+        }
+    }
+    return count;
+}
+
 /* The four points of four pairs. */
 struct four {
     struct lanes3 x[4];
@@ -260,4 +327,4 @@ static void sides(const struct contact_ways *ways, uint32_t (*triangle_point)[3]
 }
 
 extern const struct contact_kernels SIM_CONTACT;
-const struct contact_kernels SIM_CONTACT = {apart, open, sides};
+const struct contact_kernels SIM_CONTACT = {meet, apart, open, sides};

@@ -1,8 +1,9 @@
-/* The inner loop of contact: how far pairs are apart, four at a time, once for each set of instructions. */
+/* The inner loops of contact, once for each set of instructions: which boxes meet, and how far pairs are apart, four at a time. */
 #ifndef SIM_CONTACT_KERNELS_H
 #define SIM_CONTACT_KERNELS_H
 
 #include "sim/ccd.h"
+#include "sim/contact_box.h"
 
 #include <stdint.h>
 
@@ -20,7 +21,17 @@ struct contact_ways {
     double room;
 };
 
+/* Boxes that are looked at together, no more than 255; and one that they are all in. */
+struct contact_group {
+    const struct contact_box *box; /* [count] */
+    uint32_t count;
+    const struct contact_box *all;
+};
+
 struct contact_kernels {
+    /* Of a box of each of two groups those that meet: couples[i] becomes their numbers in a and b; returns how many there are. There is room for all. */
+    uint32_t (*meet)(const struct contact_group *a, const struct contact_group *b, uint8_t (*couples)[2]);
+
     /*
      * apart[i][0] and [1] become how far pair i is apart at the first places and at the last, along the direction in which its features are nearest at the
      * first (ccd_apart()), to rounding: on the way they are never nearer than what lies in between. points has room for a multiple of four; so has apart.

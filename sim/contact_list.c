@@ -242,7 +242,8 @@ static void watch_part(struct sim *sim, const struct sim_part *part, void *conte
         const float above = root_above(square);
         c->off[p] = above > c->off[p] ? above : c->off[p];
         share.stray = square > share.stray ? square : share.stray;
-        share.count += is_too_far(w, p, square);
+        if (is_too_far(w, p, square))
+            c->again[part->point_begin + share.count++] = p;
     }
     c->share[part - sim->parts] = share;
 }
@@ -322,10 +323,10 @@ enum status contact_list_follow(struct sim *sim, struct error *err)
     c->stray = sqrt(largest);
     c->used = c->stray / (w.growth * c->memory.reach - w.lost);
     c->again_count = 0;
-    for (size_t i = 0; i < sim->part_count; i++)
-        for (uint32_t p = sim->parts[i].point_begin; c->share[i].count && p < sim->parts[i].point_end; p++)
-            if (is_too_far(&w, p, stray_of(&w, p, sim->position)))
-                note_again(c, p);
+    for (size_t i = 0; i < sim->part_count;
+         i++) /* each part has noted them from its first point's place on */
+        for (uint32_t k = 0; k < c->share[i].count; k++)
+            note_again(c, c->again[sim->parts[i].point_begin + k]);
     return c->again_count ? mend(sim, &w, err) : STATUS_OK;
 }
 

@@ -60,13 +60,12 @@ bool contact_approaches(const struct sim *sim, const struct contact_pair *pair, 
     return ccd_meet(kind, a->from, a->to, gap, &a->touch);
 }
 
+/* A pair that sleeps has points that may come to be further off by `more`, together, than they were when all were looked at. */
 struct look {
     const struct sim *sim;
     bool zones;
     float growth, gone[2]; /* at the step's beginning and end */
-    float gap;             /* half the thickness */
-    float
-        more; /* by which the points of a sleeping pair may be further off, together, than at the last look at all */
+    float gap, more;       /* gap: half the thickness */
 };
 
 static inline float larger(float a, float b)

@@ -26,7 +26,7 @@ static int longest_axis(const struct maker *m, uint32_t begin, uint32_t end)
         const struct contact_box point = contact_box_point(x, x, 0);
         contact_box_join(&box, &point);
     }
-    const box_row size = box.high[0] - box.low[0];
+    const box_row size = box.at[0].low + box.at[0].high;
     int axis = 0;
     for (int i = 1; i < 3; i++)
         axis = size[i] > size[axis] ? i : axis;
@@ -168,22 +168,29 @@ static void find_fits(struct contact_tree *tree, uint32_t triangles)
     }
 }
 
+/* How many leaves so many triangles come to: they are halved as make() does. */
+static size_t leaves_of(size_t triangles)
+{
+    return triangles <= CONTACT_LEAF ? 1 : leaves_of(triangles / 2) + leaves_of(triangles - triangles / 2);
+}
+
 enum status contact_tree_open(struct contact_tree *tree, struct sim *sim, struct error *err)
 {
     const size_t triangles = sim->triangle_count;
     struct maker m = {.tree = tree, .sim = sim};
-    tree->nodes = sim_table(sim, 2 * triangles, sizeof *tree->nodes);
+    size_t leaves = 0;
+    for (size_t b = 0; b < sim->balloon_count; b++)
+        leaves += leaves_of(sim->balloons[b].triangle_end - sim->balloons[b].triangle_begin);
+    tree->nodes = sim_table(sim, 2 * leaves, sizeof *tree->nodes);
     tree->order = sim_table(sim, triangles, sizeof *tree->order);
     tree->leaf = sim_table(sim, triangles, sizeof *tree->leaf);
-    tree->beside = sim_table(sim, triangles / 2 + sim->balloon_count, sizeof *tree->beside);
-    tree->leaves = sim_table(sim, triangles / 2 + sim->balloon_count, sizeof *tree->leaves);
+    tree->beside = sim_table(sim, leaves, sizeof *tree->beside);
+    tree->leaves = sim_table(sim, leaves, sizeof *tree->leaves);
     tree->leaf_point = sim_table(sim, sim->point_count, sizeof *tree->leaf_point);
     tree->leaf_edge = sim_table(sim, sim->edge_count, sizeof *tree->leaf_edge);
-    tree->edge_box = sim_table(sim, sim->edge_count, sizeof *tree->edge_box);
     tree->point_taken = sim_table(sim, sim->point_count, 1);
     tree->edge_taken = sim_table(sim, sim->edge_count, 1);
     tree->side = sim_table(sim, triangles, sizeof *tree->side);
-    tree->box = sim_table(sim, triangles, sizeof *tree->box);
     tree->point = sim_table(sim, sim->point_count, sizeof *tree->point);
     tree->root = sim_table(sim, sim->balloon_count, sizeof *tree->root);
     tree->jobs = sim_table(sim, CONTACT_JOBS, sizeof *tree->jobs);
@@ -193,9 +200,9 @@ enum status contact_tree_open(struct contact_tree *tree, struct sim *sim, struct
     m.parent = array_new(triangles, sizeof *m.parent);
     m.inside = array_new(triangles, sizeof *m.inside);
     const bool room = tree->nodes && tree->order && tree->leaf && tree->beside && tree->leaves &&
-                      tree->leaf_point && tree->leaf_edge && tree->edge_box && tree->point_taken &&
-                      tree->edge_taken && tree->side && tree->box && tree->point && tree->root &&
-                      tree->jobs && tree->fit && m.middle && m.of_edge && m.parent && m.inside;
+                      tree->leaf_point && tree->leaf_edge && tree->point_taken && tree->edge_taken &&
+                      tree->side && tree->point && tree->root && tree->jobs && tree->fit && m.middle &&
+                      m.of_edge && m.parent && m.inside;
     if (room) {
         make_all(&m);
         find_fits(tree, sim->triangle_count);
@@ -216,12 +223,10 @@ void contact_tree_close(struct contact_tree *tree)
     free(tree->leaves);
     free(tree->leaf_point);
     free(tree->leaf_edge);
-    free(tree->edge_box);
     free(tree->point_taken);
     free(tree->edge_taken);
     free(tree->side);
     free(tree->root);
-    free(tree->box);
     free(tree->point);
     free(tree->jobs);
     free(tree->fit);

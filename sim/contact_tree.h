@@ -22,7 +22,7 @@
 
 enum { CONTACT_JOBS = 4096 }; /* that a search is divided into at the most */
 
-/* What a leaf stands for, so that nothing is looked at twice: points and edges of its triangles, each in one leaf, with the edges' boxes. */
+/* What a leaf stands for, so that nothing is looked at twice: points and edges of its triangles, each in one leaf. */
 struct contact_leaf {
     uint32_t point_begin, point_end; /* of tree->leaf_point */
     uint32_t edge_begin, edge_end;   /* of tree->leaf_edge */
@@ -40,10 +40,8 @@ struct contact_node {
     uint32_t number;     /* of a leaf */
 };
 
-enum {
-    CONTACT_LEAF = 5,
-    CONTACT_BESIDE = 3 * CONTACT_LEAF
-}; /* triangles in a leaf at the most; sides that they have */
+/* Triangles in a leaf at the most, and sides that they have. Of fewer more leaves meet, of more they have more boxes that do not. */
+enum { CONTACT_LEAF = 10, CONTACT_BESIDE = 3 * CONTACT_LEAF };
 
 struct contact_tree {
     struct contact_node *nodes; /* [node_count] owned */
@@ -55,9 +53,7 @@ struct contact_tree {
     uint32_t *root;       /* [balloon_count] owned */
     struct contact_leaf *leaves;             /* [leaf_count] owned */
     uint32_t *leaf_point, *leaf_edge;        /* [point_count], [edge_count] owned */
-    struct contact_box *edge_box;            /* [edge_count] in leaf_edge's order; owned */
     unsigned char *point_taken, *edge_taken; /* [point_count], [edge_count] for finding that; owned */
-    struct contact_box *box;                 /* [triangle_count] of the triangles, in order's order; owned */
     uint32_t *side; /* [triangle_count] to which sides each looks (contact_kernels.h); owned */
     const struct contact_kernels *kernels;
     struct contact_box *point; /* [point_count] of each point's way; owned */
@@ -65,6 +61,13 @@ struct contact_tree {
     uint32_t job_count;
     uint32_t *fit; /* [fit_count] nodes that are fitted on their own, with all below; owned */
     uint32_t fit_count;
+};
+
+/* The boxes of a leaf: of its triangles, in the tree's order, and of the points and edges that it stands for. */
+struct contact_cell {
+    uint32_t leaf;
+    struct contact_group triangles, points, edges;
+    struct contact_box triangle[CONTACT_LEAF], point[CONTACT_BESIDE], edge[CONTACT_BESIDE];
 };
 
 struct contact_job {
@@ -76,6 +79,10 @@ enum status contact_tree_open(struct contact_tree *tree, struct sim *sim, struct
 void contact_tree_close(struct contact_tree *tree);
 
 void contact_tree_fit(struct contact_tree *tree, struct sim *sim, const struct contact_ways *ways);
+
+/* The cell of a leaf, for the ways that the tree was fitted to. */
+void contact_tree_cell(const struct contact_tree *tree, const struct sim *sim, uint32_t leaf,
+                       struct contact_cell *cell);
 
 /* Finds anew what the leaves stand for, of the triangles that are active; before the first contact_tree_fit(), and when sim->broken has changed. */
 void contact_tree_share(struct contact_tree *tree, const struct sim *sim);

@@ -121,11 +121,14 @@ static void cross_leaves(void *context, unsigned worker, uint32_t a, uint32_t b)
     (void)worker;
     struct crossings *crossings = context;
     const struct contact_tree *tree = &crossings->sim->contact->tree;
-    const struct contact_node *first = &tree->nodes[a], *second = &tree->nodes[b];
-    for (uint32_t i = first->begin; i < first->end; i++)
-        for (uint32_t j = a == b ? i + 1 : second->begin; j < second->end; j++)
-            if (contact_boxes_meet(&tree->box[i], &tree->box[j]))
-                cross(crossings, tree->order[i], tree->order[j]);
+    const uint32_t *of_a = tree->order + tree->nodes[a].begin, *of_b = tree->order + tree->nodes[b].begin;
+    struct contact_cell first, second;
+    contact_tree_cell(tree, crossings->sim, a, &first);
+    contact_tree_cell(tree, crossings->sim, b, &second);
+    for (uint32_t i = 0; i < first.triangles.count; i++)
+        for (uint32_t j = a == b ? i + 1 : 0; j < second.triangles.count; j++)
+            if (contact_boxes_meet(&first.triangle[i], &second.triangle[j]))
+                cross(crossings, of_a[i], of_b[j]);
 }
 
 static size_t balloon_of(const struct sim *sim, uint32_t triangle)
