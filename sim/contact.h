@@ -74,6 +74,10 @@ struct contact {
     uint32_t *star_end,
         *star; /* [point_count], [3 triangle_count] the triangles around p end at star_end[p]; owned */
 
+    /* Lines and ways as the inner loops take them (contact_kernels.h): lines from `origin`, ways from where the first point's begins. */
+    double origin[3];
+    float (*lines)[8], (*ways)[8]; /* [point_count] owned */
+
     struct contact_taken *taken; /* [workers] owned */
     struct contact_pair *pairs;  /* [pair_capacity] owned */
     uint32_t pair_count, pair_capacity;
@@ -117,6 +121,9 @@ enum status contact_list_follow_moved(struct sim *sim, struct error *err);
 /* How much of its lines is gone at the end of the present step, and at its beginning: 0 to 1 while it holds. */
 double contact_list_gone(const struct sim *sim);
 double contact_list_gone_before(const struct sim *sim);
+
+/* Rounds the lines or ways of all points. */
+void contact_round(struct sim *sim, struct contact_rounding *job);
 
 /* Where four points are. */
 void contact_gather(double (*x)[4], const uint32_t points[4], double places[4][3]);

@@ -137,6 +137,9 @@ enum status contact_pairs_find_again(struct sim *sim, struct error *err)
     struct contact *c = sim->contact;
     const struct contact_ways ways = contact_ways_of(c);
     struct contact_finder finder = contact_finder_begin(sim);
+    struct contact_rounding lines = contact_round_lines(c);
+    lines.points = c->again;
+    c->tree.kernels->round(&lines, 0, c->again_count);
     contact_links_make(sim);
     for (uint32_t i = 0; i < c->again_count; i++) {
         forget_pairs(c, c->again[i]);

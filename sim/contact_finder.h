@@ -21,6 +21,12 @@ void contact_take_leaves(void *finder, unsigned worker, uint32_t a, uint32_t b);
 /* Looks at what is left. STATUS_RANGE when more is near than there is room for. */
 enum status contact_finder_end(const struct contact_finder *f, struct error *err);
 
+/* The lines as the inner loops take them. */
+static inline struct contact_rounding contact_round_lines(const struct contact *c)
+{
+    return (struct contact_rounding){c->from, c->to, c->origin, NULL, c->lines};
+}
+
 /* For what ways. */
 static inline struct contact_ways contact_ways_of(const struct contact *c)
 {

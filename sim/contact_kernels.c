@@ -1,5 +1,5 @@
-/* Four pairs at once (lanes.h). SIM_CONTACT is the name of the table at the end. */
-#include "sim/contact_kernels.h"
+/* Four triangles at once (lanes.h), and eight pairs (contact_apart.h). SIM_CONTACT is the name of the table at the end. */
+#include "sim/contact_apart.h"
 #include "sim/lanes.h"
 
 #ifdef __AVX__
@@ -69,10 +69,54 @@ static uint32_t meet(const struct contact_group *a, const struct contact_group *
     return count;
 }
 
-/* The four points of four pairs. */
-struct four {
-    struct lanes3 x[4];
-};
+/* Makes the number a multiple of eight, by the last one again. */
+static void fill_up(uint32_t (*points)[4], uint32_t count)
+{
+    for (uint32_t i = count; i % 8 != 0; i++)
+        for (int k = 0; k < 4; k++)
+            points[i][k] = points[count - 1][k];
+}
+
+static void apart(const struct contact_flock *flock, uint32_t (*points)[4], uint32_t count, float (*apart)[2])
+{
+    fill_up(points, count);
+    for (uint32_t i = 0; i < count; i += 8) {
+        const uint32_t(*eight)[4] = (const uint32_t(*)[4]) & points[i];
+        if (flock->kind == CCD_EDGES)
+            apart_eight(flock, CCD_EDGES, eight, &apart[i]);
+        else
+            apart_eight(flock, CCD_POINT_TRIANGLE, eight, &apart[i]);
+    }
+}
+
+static uint32_t open(const struct contact_flock *flock, double thickness, uint32_t (*points)[4],
+                     uint32_t count, uint32_t *open)
+{
+    const float least = (float)(1.000001 * thickness);
+    uint32_t found = 0;
+    fill_up(points, count);
+    for (uint32_t i = 0; i < count; i += 8) {
+        const uint32_t(*eight)[4] = (const uint32_t(*)[4]) & points[i];
+        unsigned bits = flock->kind == CCD_EDGES ? apart_open(flock, least, CCD_EDGES, eight)
+                                                 : apart_open(flock, least, CCD_POINT_TRIANGLE, eight);
+        for (uint32_t j = i; bits && j < count; j++, bits >>= 1)
+            if (bits & 1)
+                open[found++] = j;
+    }
+    return found;
+}
+
+static void round_places(const struct contact_rounding *job, uint32_t begin, uint32_t end)
+{
+    typedef float half __attribute__((vector_size(4 * sizeof(float)), may_alias));
+    const row origin = {job->origin[0], job->origin[1], job->origin[2], 0};
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t p = job->points ? job->points[i] : i;
+        const row first = *(const row *)job->from[p] - origin, last = *(const row *)job->to[p] - origin;
+        ((half *)job->ends[p])[0] = __builtin_convertvector(first, half);
+        ((half *)job->ends[p])[1] = __builtin_convertvector(last, half);
+    }
+}
 
 static inline struct lanes3 sub(struct lanes3 a, struct lanes3 b)
 {
@@ -82,164 +126,6 @@ static inline struct lanes3 sub(struct lanes3 a, struct lanes3 b)
 static inline struct lanes3 scale(lanes s, struct lanes3 a)
 {
     return (struct lanes3){s * a.x, s * a.y, s * a.z};
-}
-
-static inline struct lanes3 select3(lane_mask mask, struct lanes3 a, struct lanes3 b)
-{
-    return (struct lanes3){lanes_select(mask, a.x, b.x), lanes_select(mask, a.y, b.y),
-                           lanes_select(mask, a.z, b.z)};
-}
-
-static inline lanes clamp(lanes value)
-{
-    return lanes_min(lanes_max(value, lanes_all(0)), lanes_all(1));
-}
-
-/* 0 where there is nothing to divide by. */
-static inline lanes divide(lanes a, lanes b)
-{
-    const lane_mask some = b > 0;
-    return lanes_select(some, a, lanes_all(0)) / lanes_select(some, b, lanes_all(1));
-}
-
-/* From the nearest place on the line from 0 to `side` to `place`. */
-static inline struct lanes3 from_side(struct lanes3 side, struct lanes3 place)
-{
-    const lanes along = clamp(divide(lanes_dot(place, side), lanes_dot(side, side)));
-    return lanes_sum(lanes_all(1), place, -along, side);
-}
-
-static inline struct lanes3 shorter(struct lanes3 a, struct lanes3 b)
-{
-    return select3(lanes_dot(a, a) < lanes_dot(b, b), a, b);
-}
-
-/* From the nearest place of the triangle 1 2 3 to the point 0: across its plane where the point is over it, else from the nearest side. */
-static inline struct lanes3 from_triangle(const struct four *f)
-{
-    const struct lanes3 ab = sub(f->x[2], f->x[1]), ac = sub(f->x[3], f->x[1]), ap = sub(f->x[0], f->x[1]),
-                        normal = lanes_cross(ab, ac);
-    const lanes square = lanes_dot(normal, normal), c = lanes_dot(lanes_cross(ab, ap), normal),
-                b = lanes_dot(lanes_cross(ap, ac), normal);
-    const struct lanes3 across = scale(divide(lanes_dot(ap, normal), square), normal),
-                        side = shorter(shorter(from_side(ab, ap), from_side(ac, ap)),
-                                       from_side(sub(f->x[3], f->x[2]), sub(f->x[0], f->x[2])));
-    return select3((b >= 0) & (c >= 0) & (b + c <= square) & (square > 0), across, side);
-}
-
-/* From the nearest place of the edge 2 3 to that of the edge 0 1 (ccd.c). */
-static inline struct lanes3 from_edge(const struct four *f)
-{
-    const struct lanes3 d1 = sub(f->x[1], f->x[0]), d2 = sub(f->x[3], f->x[2]), r = sub(f->x[0], f->x[2]);
-    const lanes a = lanes_dot(d1, d1), e = lanes_dot(d2, d2), g = lanes_dot(d2, r), c = lanes_dot(d1, r),
-                b = lanes_dot(d1, d2);
-    const lanes free_s = clamp(divide(b * g - c * e, a * e - b * b)), free_t = divide(b * free_s + g, e),
-                t = clamp(free_t);
-    const lanes s = lanes_select(t == free_t, free_s, clamp(divide(b * t - c, a)));
-    return lanes_sum(lanes_all(1), lanes_sum(lanes_all(1), r, s, d1), -t, d2);
-}
-
-static inline lanes apart_along(const struct four *f, enum ccd_kind kind, struct lanes3 n)
-{
-    const lanes x0 = lanes_dot(n, f->x[0]), x1 = lanes_dot(n, f->x[1]), x2 = lanes_dot(n, f->x[2]),
-                x3 = lanes_dot(n, f->x[3]), high = lanes_max(x2, x3);
-    return kind == CCD_EDGES ? lanes_min(x0, x1) - high : x0 - lanes_max(x1, high);
-}
-
-/* Four pairs where they are at first and at last. */
-struct four_ways {
-    struct four first, last;
-};
-
-static inline struct four_ways gather(const struct contact_flock *flock, const uint32_t (*points)[4])
-{
-    struct four_ways f;
-    const row *from = (const row *)flock->from, *to = (const row *)flock->to;
-    for (int k = 0; k < 4; k++) {
-        row at[4], end[4];
-        for (int i = 0; i < 4; i++) {
-            end[i] = to[points[i][k]];
-            at[i] = from[points[i][k]];
-            at[i] += flock->gone * (end[i] - at[i]);
-        }
-        f.first.x[k] = lanes_of_rows(at);
-        f.last.x[k] = lanes_of_rows(end);
-    }
-    return f;
-}
-
-/* The direction from the nearest place of the second feature to that of the first. */
-static inline struct lanes3 nearest(const struct four *f, enum ccd_kind kind)
-{
-    const struct lanes3 way = kind == CCD_EDGES ? from_edge(f) : from_triangle(f);
-    return scale(divide(lanes_all(1), lanes_sqrt(lanes_dot(way, way))), way);
-}
-
-static inline void four_apart(const struct contact_flock *flock, enum ccd_kind kind,
-                              const uint32_t (*points)[4], double (*apart)[2])
-{
-    const struct four_ways f = gather(flock, points);
-    const struct lanes3 n = nearest(&f.first, kind);
-    const lanes begin = apart_along(&f.first, kind, n), end = apart_along(&f.last, kind, n);
-    for (int i = 0; i < 4; i++) {
-        apart[i][0] = begin[i];
-        apart[i][1] = end[i];
-    }
-}
-
-/* Makes the number a multiple of four, by the last one again. */
-static void fill_up(uint32_t (*points)[4], uint32_t count)
-{
-    for (uint32_t i = count; i % 4 != 0; i++)
-        for (int k = 0; k < 4; k++)
-            points[i][k] = points[count - 1][k];
-}
-
-static void apart(const struct contact_flock *flock, uint32_t (*points)[4], uint32_t count,
-                  double (*apart)[2])
-{
-    fill_up(points, count);
-    if (flock->kind == CCD_EDGES)
-        for (uint32_t i = 0; i < count; i += 4)
-            four_apart(flock, CCD_EDGES, (const uint32_t(*)[4]) & points[i], &apart[i]);
-    else
-        for (uint32_t i = 0; i < count; i += 4)
-            four_apart(flock, CCD_POINT_TRIANGLE, (const uint32_t(*)[4]) & points[i], &apart[i]);
-}
-
-/* Along the direction in which they are nearest at first they are then as far apart as they are at all, to rounding. Features that slide past each other are
- * often not apart along it at last, but along the one in which they are nearest then. */
-static inline lane_mask four_open(const struct contact_flock *flock, double thickness, enum ccd_kind kind,
-                                  const uint32_t (*points)[4])
-{
-    const struct four_ways f = gather(flock, points);
-    const struct lanes3 n = nearest(&f.first, kind);
-    const lanes distance = apart_along(&f.first, kind, n),
-                gap = 0.500001 * lanes_min(distance, lanes_all(thickness));
-    const lane_mask apart = distance > 1e-6 * thickness,
-                    open = ~(apart & (apart_along(&f.last, kind, n) > gap));
-    if (!lanes_any(open & apart))
-        return open;
-    const struct lanes3 m = nearest(&f.last, kind);
-    return open & ~(apart & (apart_along(&f.first, kind, m) > gap) & (apart_along(&f.last, kind, m) > gap));
-}
-
-static uint32_t open(const struct contact_flock *flock, double thickness, uint32_t (*points)[4],
-                     uint32_t count, uint32_t *open)
-{
-    uint32_t found = 0;
-    fill_up(points, count);
-    for (uint32_t i = 0; i < count; i += 4) {
-        const uint32_t(*four)[4] = (const uint32_t(*)[4]) & points[i];
-        const lane_mask mask = flock->kind == CCD_EDGES
-                                   ? four_open(flock, thickness, CCD_EDGES, four)
-                                   : four_open(flock, thickness, CCD_POINT_TRIANGLE, four);
-        for (uint32_t j = 0; j < 4 && i + j < count; j++) {
-            open[found] = i + j;
-            found += mask[j] != 0;
-        }
-    }
-    return found;
 }
 
 /* Half of the directions to the middles of a cube's faces, edges and corners; the others are their opposites. */
@@ -327,4 +213,4 @@ static void sides(const struct contact_ways *ways, uint32_t (*triangle_point)[3]
 }
 
 extern const struct contact_kernels SIM_CONTACT;
-const struct contact_kernels SIM_CONTACT = {meet, apart, open, sides};
+const struct contact_kernels SIM_CONTACT = {meet, round_places, apart, open, sides};

@@ -1,4 +1,4 @@
-/* The inner loops of contact, once for each set of instructions: which boxes meet, and how far pairs are apart, four at a time. */
+/* The inner loops of contact, once for each set of instructions: which boxes meet, and how far pairs are apart. */
 #ifndef SIM_CONTACT_KERNELS_H
 #define SIM_CONTACT_KERNELS_H
 
@@ -7,11 +7,19 @@
 
 #include <stdint.h>
 
+/* Ways of points, as seen from one place, in single precision: x, y, z, 0 where they begin and x, y, z, 0 where they end. */
+struct contact_rounding {
+    double (*from)[4], (*to)[4]; /* [point_count] */
+    const double *origin;        /* x, y, z */
+    const uint32_t *points;      /* which; NULL: all */
+    float (*ends)[8];            /* [point_count] aligned to eight; what becomes of them */
+};
+
 /* Pairs of one kind whose points go straight from some places to others. */
 struct contact_flock {
     enum ccd_kind kind;
-    double (*from)[4], (*to)[4]; /* [point_count] */
-    double gone;                 /* the first places are so far on the way from `from` to `to` */
+    float (*ends)[8]; /* [point_count] */
+    float gone;       /* the first places are so far on the way */
 };
 
 /* Where the points go, how far each may stray from that, and how much room is wanted around it. */
@@ -32,16 +40,19 @@ struct contact_kernels {
     /* Of a box of each of two groups those that meet: couples[i] becomes their numbers in a and b; returns how many there are. There is room for all. */
     uint32_t (*meet)(const struct contact_group *a, const struct contact_group *b, uint8_t (*couples)[2]);
 
+    /* The ways of points[begin] to points[end - 1]. */
+    void (*round)(const struct contact_rounding *job, uint32_t begin, uint32_t end);
+
     /*
-     * apart[i][0] and [1] become how far pair i is apart at the first places and at the last, along the direction in which its features are nearest at the
-     * first (ccd_apart()), to rounding: on the way they are never nearer than what lies in between. points has room for a multiple of four; so has apart.
+     * apart[i][0] and [1] become how far pair i is apart at least at the first places and at the last, along the direction in which its features are nearest at
+     * the first (ccd_apart()): on the way they are never nearer than what lies in between. points has room for a multiple of eight; so has apart.
      */
     void (*apart)(const struct contact_flock *flock, uint32_t (*points)[4], uint32_t count,
-                  double (*apart)[2]);
+                  float (*apart)[2]);
 
     /*
      * Which of the pairs may come nearer on their way than half of `thickness`, or of their distance at first where that is less: open becomes their numbers, in
-     * order, and the call returns how many. All others surely do not. points as above; open has room for `count`; flock->gone is 0.
+     * order, and the call returns how many. All others surely do not. points as above; open has room for `count`.
      */
     uint32_t (*open)(const struct contact_flock *flock, double thickness, uint32_t (*points)[4],
                      uint32_t count, uint32_t *open);

@@ -99,7 +99,7 @@ static void look_closely(struct sieve *sieve, enum ccd_kind kind)
 {
     const struct sim *sim = sieve->look->sim;
     struct contact *c = sim->contact;
-    const struct contact_flock flock = {kind, sim->before, sim->position, 0};
+    const struct contact_flock flock = {kind, c->ways, 0};
     uint32_t open[PAIRS_AT_ONCE];
     const uint32_t count = c->tree.kernels->open(&flock, c->thickness, sieve->point[kind], sieve->count[kind],
                                                  open);
@@ -122,10 +122,6 @@ static inline void take_in(struct sieve *sieve, uint32_t i)
     const uint32_t place = sieve->count[pair->kind]++;
     sieve->pair[pair->kind][place] = i;
     memcpy(sieve->point[pair->kind][place], p, 4 * sizeof *p);
-    for (int k = 0; k < 4; k++) { /* wanted soon */
-        __builtin_prefetch(sieve->look->sim->before[p[k]]);
-        __builtin_prefetch(sieve->look->sim->position[p[k]]);
-    }
     if (place + 1 == PAIRS_AT_ONCE)
         look_closely(sieve, (enum ccd_kind)pair->kind);
 }
@@ -277,9 +273,17 @@ static bool look(struct sim *sim, bool zones, size_t count,
     return c->hit_count > 0;
 }
 
+static struct contact_rounding round_ways(const struct sim *sim)
+{
+    const struct contact *c = sim->contact;
+    return (struct contact_rounding){sim->before, sim->position, sim->before[0], NULL, c->ways};
+}
+
 bool contact_look(struct sim *sim)
 {
     struct contact *c = sim->contact;
+    struct contact_rounding ways = round_ways(sim);
+    contact_round(sim, &ways);
     const float more = (float)c->thickness / 4; /* of two points that is less than look.more */
     for (uint32_t p = 0; p < sim->point_count; p++)
         c->bound[p] = c->off[p] + more;
@@ -298,6 +302,10 @@ void contact_wake(struct sim *sim, uint32_t point)
 
 bool contact_look_at_moved(struct sim *sim, bool zones)
 {
+    struct contact *c = sim->contact;
+    struct contact_rounding ways = round_ways(sim);
+    ways.points = c->moved;
+    c->tree.kernels->round(&ways, 0, c->moved_count);
     contact_links_make(sim);
     return look(sim, zones, (sim->contact->moved_count + POINTS_AT_ONCE - 1) / POINTS_AT_ONCE, look_at_links);
 }

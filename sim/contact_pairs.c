@@ -48,17 +48,17 @@ static double reach_of(const struct contact *c, const uint32_t *p, int count)
 static void list_taken(const struct contact_finder *f, struct contact_taken *taken, enum ccd_kind kind)
 {
     struct contact *c = f->contact;
-    const struct contact_flock flock = {kind, c->from, c->to, f->gone};
+    const struct contact_flock flock = {kind, c->lines, (float)f->gone};
     const int first = kind == CCD_POINT_TRIANGLE ? 1 : 2;
-    double apart[CONTACT_TAKEN][2];
+    float apart[CONTACT_TAKEN][2];
     c->tree.kernels->apart(&flock, taken->point[kind], taken->count[kind], apart);
     for (uint32_t i = 0; i < taken->count[kind]; i++) {
         const uint32_t *p = taken->point[kind][i];
         const double room = reach_of(c, p, first) + reach_of(c, p + first, 4 - first) + c->thickness;
-        if (fmin(apart[i][0], apart[i][1]) > room)
+        const double begin = (double)apart[i][0], end = (double)apart[i][1];
+        if (fmin(begin, end) > room)
             continue;
-        const double pace = (apart[i][0] - apart[i][1]) / (1 - f->gone),
-                     at_first = apart[i][0] + f->gone * pace;
+        const double pace = (begin - end) / (1 - f->gone), at_first = begin + f->gone * pace;
         const uint32_t place = __atomic_fetch_add(&c->pair_count, 1, __ATOMIC_RELAXED);
         if (place >= c->pair_capacity)
             continue;
@@ -77,10 +77,6 @@ static void take_pair(const struct contact_finder *f, struct contact_taken *take
     if (shares_point(kind, p))
         return;
     memcpy(taken->point[kind][taken->count[kind]++], p, 4 * sizeof *p);
-    for (int k = 0; k < 4; k++) { /* wanted soon */
-        __builtin_prefetch(f->contact->from[p[k]]);
-        __builtin_prefetch(f->contact->to[p[k]]);
-    }
     if (taken->count[kind] == CONTACT_TAKEN)
         list_taken(f, taken, kind);
 }
@@ -139,6 +135,16 @@ void contact_take_leaves(void *finder, unsigned worker, uint32_t a, uint32_t b)
     take_edges(f, taken, &first, &second);
 }
 
+static void round_part(struct sim *sim, const struct sim_part *part, void *job)
+{
+    sim->contact->tree.kernels->round(job, part->point_begin, part->point_end);
+}
+
+void contact_round(struct sim *sim, struct contact_rounding *job)
+{
+    sim_each_part(sim, round_part, job);
+}
+
 struct contact_finder contact_finder_begin(struct sim *sim)
 {
     struct contact *c = sim->contact;
@@ -174,6 +180,9 @@ enum status contact_pairs_find(struct sim *sim, struct error *err)
     const struct contact_ways ways = contact_ways_of(c);
     struct contact_finder finder = contact_finder_begin(sim);
     c->pair_count = c->indexed = c->linked = 0;
+    memcpy(c->origin, c->from[0], sizeof c->origin);
+    struct contact_rounding lines = contact_round_lines(c);
+    contact_round(sim, &lines);
     contact_tree_fit(&c->tree, sim, &ways);
     contact_tree_pairs(&c->tree, sim, contact_take_leaves, &finder);
     return contact_finder_end(&finder, err);

@@ -48,6 +48,8 @@ static bool allocate(struct sim *sim, struct contact *c)
     c->speed = sim_table(sim, points, sizeof *c->speed);
     c->star_end = sim_table(sim, points, sizeof *c->star_end);
     c->star = sim_table(sim, 3 * triangles, sizeof *c->star);
+    c->lines = sim_table(sim, points, sizeof *c->lines);
+    c->ways = sim_table(sim, points, sizeof *c->ways);
     c->taken = sim_table(sim, threads_workers(sim->pool), sizeof *c->taken);
     c->pairs = sim_table(sim, c->pair_capacity, sizeof *c->pairs);
     c->link = sim_table(sim, 4 * (size_t)c->pair_capacity, sizeof *c->link);
@@ -65,9 +67,10 @@ static bool allocate(struct sim *sim, struct contact *c)
     c->zone = sim_table(sim, points, sizeof *c->zone);
     c->drift = sim_table(sim, points, sizeof *c->drift);
     c->share = sim_table(sim, sim->part_count, sizeof *c->share);
-    return c->from && c->to && c->reach && c->off && c->speed && c->star_end && c->star && c->taken &&
-           c->pairs && c->link && c->link_end && c->chain && c->bound && c->awake && c->hits && c->moved &&
-           c->again && c->around && c->stirred && c->marked && c->held && c->zone && c->drift && c->share;
+    return c->from && c->to && c->reach && c->off && c->speed && c->star_end && c->star && c->lines &&
+           c->ways && c->taken && c->pairs && c->link && c->link_end && c->chain && c->bound && c->awake &&
+           c->hits && c->moved && c->again && c->around && c->stirred && c->marked && c->held && c->zone &&
+           c->drift && c->share;
 }
 
 /* Whether the edge a b passes through the triangle: its ends on two sides, and its line between the corners. */
@@ -191,9 +194,10 @@ static void close(struct sim *sim, struct sim_balloon *balloon)
     if (!c)
         return;
     contact_tree_close(&c->tree);
-    void *tables[] = {c->from,  c->to,     c->reach,    c->off,    c->speed, c->star_end, c->star,  c->taken,
-                      c->pairs, c->link,   c->link_end, c->chain,  c->bound, c->awake,    c->hits,  c->moved,
-                      c->again, c->around, c->stirred,  c->marked, c->held,  c->zone,     c->drift, c->share};
+    void *tables[] = {c->from,   c->to,    c->reach, c->off,   c->speed, c->star_end, c->star,
+                      c->lines,  c->ways,  c->taken, c->pairs, c->link,  c->link_end, c->chain,
+                      c->bound,  c->awake, c->hits,  c->moved, c->again, c->around,   c->stirred,
+                      c->marked, c->held,  c->zone,  c->drift, c->share};
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++)
         free(tables[i]);
     free(c);

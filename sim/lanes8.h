@@ -1,0 +1,133 @@
+/*
+ * Eight numbers of single precision at once, for what is only to be told apart roughly: each result is to be trusted to its rounding and no further
+ * (lanes.h has four of double precision). With the machine's own instructions where it has vectors that wide.
+ */
+#ifndef SIM_LANES8_H
+#define SIM_LANES8_H
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wpsabi"
+#endif
+
+typedef float lanes8 __attribute__((vector_size(8 * sizeof(float)), may_alias));
+typedef int32_t lanes8_mask
+    __attribute__((vector_size(8 * sizeof(int32_t)), may_alias)); /* -1 where true, else 0 */
+
+/* x, y and z of eight vectors. */
+struct lanes8_vec {
+    lanes8 x, y, z;
+};
+
+static inline lanes8 lanes8_all(float number)
+{
+    return (lanes8){number, number, number, number, number, number, number, number};
+}
+
+static inline lanes8 lanes8_select(lanes8_mask mask, lanes8 where_true, lanes8 where_false)
+{
+    return (lanes8)(((lanes8_mask)where_true & mask) | ((lanes8_mask)where_false & ~mask));
+}
+
+static inline lanes8 lanes8_max(lanes8 a, lanes8 b)
+{
+#ifdef __AVX__
+    return (lanes8)_mm256_max_ps((__m256)a, (__m256)b);
+#else
+    return lanes8_select(a > b, a, b);
+#endif
+}
+
+static inline lanes8 lanes8_min(lanes8 a, lanes8 b)
+{
+#ifdef __AVX__
+    return (lanes8)_mm256_min_ps((__m256)a, (__m256)b);
+#else
+    return lanes8_select(a < b, a, b);
+#endif
+}
+
+static inline lanes8 lanes8_sqrt(lanes8 a)
+{
+#ifdef __AVX__
+    return (lanes8)_mm256_sqrt_ps((__m256)a);
+#else
+    for (int i = 0; i < 8; i++)
+        a[i] = sqrtf(a[i]);
+    return a;
+#endif
+}
+
+static inline lanes8 lanes8_size(lanes8 a)
+{
+    return (lanes8)((lanes8_mask)a & INT32_MAX);
+}
+
+/* A bit for each that is true. */
+static inline unsigned lanes8_bits(lanes8_mask mask)
+{
+#ifdef __AVX__
+    return (unsigned)_mm256_movemask_ps((__m256)mask);
+#else
+    unsigned bits = 0;
+    for (int i = 0; i < 8; i++)
+        bits |= (unsigned)(mask[i] & 1) << i;
+    return bits;
+#endif
+}
+
+static inline struct lanes8_vec lanes8_sub(struct lanes8_vec a, struct lanes8_vec b)
+{
+    return (struct lanes8_vec){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static inline struct lanes8_vec lanes8_scale(lanes8 s, struct lanes8_vec a)
+{
+    return (struct lanes8_vec){s * a.x, s * a.y, s * a.z};
+}
+
+/* a + s b */
+static inline struct lanes8_vec lanes8_add(struct lanes8_vec a, lanes8 s, struct lanes8_vec b)
+{
+    return (struct lanes8_vec){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
+}
+
+static inline lanes8 lanes8_dot(struct lanes8_vec a, struct lanes8_vec b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static inline struct lanes8_vec lanes8_cross(struct lanes8_vec a, struct lanes8_vec b)
+{
+    return (struct lanes8_vec){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/* Eight rows of two vectors each, x y z 0 x y z 0, turned: the first ones and the second ones. */
+static inline void lanes8_turn(const lanes8 in[8], struct lanes8_vec *first, struct lanes8_vec *second)
+{
+    lanes8 x[2], y[2], z[2];
+    for (int i = 0; i < 2; i++) {
+        const lanes8 *r = in + 4 * i;
+        const lanes8 low01 = __builtin_shufflevector(r[0], r[1], 0, 8, 1, 9, 4, 12, 5, 13),
+                     low23 = __builtin_shufflevector(r[2], r[3], 0, 8, 1, 9, 4, 12, 5, 13),
+                     high01 = __builtin_shufflevector(r[0], r[1], 2, 10, 3, 11, 6, 14, 7, 15),
+                     high23 = __builtin_shufflevector(r[2], r[3], 2, 10, 3, 11, 6, 14, 7, 15);
+        x[i] = __builtin_shufflevector(low01, low23, 0, 1, 8, 9, 4, 5, 12, 13);
+        y[i] = __builtin_shufflevector(low01, low23, 2, 3, 10, 11, 6, 7, 14, 15);
+        z[i] = __builtin_shufflevector(high01, high23, 0, 1, 8, 9, 4, 5, 12, 13);
+    }
+    first->x = __builtin_shufflevector(x[0], x[1], 0, 1, 2, 3, 8, 9, 10, 11);
+    first->y = __builtin_shufflevector(y[0], y[1], 0, 1, 2, 3, 8, 9, 10, 11);
+    first->z = __builtin_shufflevector(z[0], z[1], 0, 1, 2, 3, 8, 9, 10, 11);
+    second->x = __builtin_shufflevector(x[0], x[1], 4, 5, 6, 7, 12, 13, 14, 15);
+    second->y = __builtin_shufflevector(y[0], y[1], 4, 5, 6, 7, 12, 13, 14, 15);
+    second->z = __builtin_shufflevector(z[0], z[1], 4, 5, 6, 7, 12, 13, 14, 15);
+}
+
+#endif
