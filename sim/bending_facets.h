@@ -79,16 +79,11 @@ INLINE struct lanes3 sides_of(const row *rows, const uint32_t (*point)[3], const
     return lanes_of_rows(side);
 }
 
-INLINE bool are_active(const unsigned char *active)
-{
-    return active[0] & active[1] & active[2] & active[3];
-}
-
 /* 1/|n|^2; 0 of a triangle that is gone. */
 INLINE lanes inverse_squares(const struct facet_work *w, lanes square, const size_t triangle[4], size_t count)
 {
     lanes inverse = 1 / no_less(square);
-    if (count < 4 || !are_active(&w->active[triangle[0]]))
+    if (count < 4 || !four_are_set(&w->active[triangle[0]]))
         for (int i = 0; i < 4; i++)
             inverse[i] = w->active[triangle[i]] ? inverse[i] : 0;
     return inverse;

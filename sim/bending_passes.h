@@ -125,7 +125,7 @@ INLINE lanes put_pulls(const struct hinge_work *w, const struct bending_view *v,
     size_t hinge[4];
     list_four(first, count, hinge);
     struct folds f = folds_of(w, hinge, damped);
-    if (w->careful || count < 4 || !are_active(&w->active[first]))
+    if (w->careful || count < 4 || !four_are_set(&w->active[first]))
         leave_out(w, v, (uint32_t)first, count, &f);
     put_four(f.pull, w->pull + first, count);
     return f.slope;

@@ -19,18 +19,32 @@ static double next_coefficient(double before, double v, int k)
     return before * (v * v - (k - 1) * (k - 1)) / (k * (2 * k - 1));
 }
 
+static bool is_whole(double power)
+{
+    return fabs(power) <= MEMBRANE_WHOLE_MOST && power == floor(power);
+}
+
+static void add_ogden_term(struct membrane_law *law, double weight, double power)
+{
+    const int p = law->terms++;
+    law->power[p] = power;
+    law->weight[p] = weight;
+    law->series[p][0] = 1;
+    for (int k = 1; k < MEMBRANE_SERIES; k++)
+        law->series[p][k] = next_coefficient(law->series[p][k - 1], power / 2, k);
+}
+
+/* Those with whole powers first. */
 static void set_ogden(struct membrane_law *law, const struct scene_profile *rows)
 {
     double modulus = 0;
-    law->terms = (int)rows->count;
-    for (int p = 0; p < law->terms; p++)
+    for (size_t p = 0; p < rows->count; p++)
         modulus += rows->row[p][0] * rows->row[p][1] / 2;
-    for (int p = 0; p < law->terms; p++) {
-        law->power[p] = rows->row[p][1];
-        law->weight[p] = rows->row[p][0] / modulus / law->power[p];
-        law->series[p][0] = 1;
-        for (int k = 1; k < MEMBRANE_SERIES; k++)
-            law->series[p][k] = next_coefficient(law->series[p][k - 1], law->power[p] / 2, k);
+    for (int whole = 1; whole >= 0; whole--) {
+        for (size_t p = 0; p < rows->count; p++)
+            if (is_whole(rows->row[p][1]) == whole)
+                add_ogden_term(law, rows->row[p][0] / modulus / rows->row[p][1], rows->row[p][1]);
+        law->whole = whole ? law->terms : law->whole;
     }
 }
 

@@ -104,11 +104,6 @@ static void add_own_triangle(struct sim *sim, const struct sim_part *part, uint3
                    air_force(air, p, triangle_normal(sim->rows.position, p, false)));
 }
 
-INLINE bool are_active(const unsigned char *active)
-{
-    return active[0] & active[1] & active[2] & active[3];
-}
-
 INLINE void add_own_triangles(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk,
                               bool unit, const struct air *air)
 {
@@ -119,7 +114,7 @@ INLINE void add_own_triangles(struct sim *sim, const struct sim_part *part, cons
     const uint32_t inner_end = chunk->triangle_inner_end, end = chunk->triangle_end;
     uint32_t t = chunk->triangle_begin;
     for (; inner_end - t >= 4; t += 4) {
-        if (!are_active(&active[t])) {
+        if (!four_are_set(&active[t])) {
             for (uint32_t i = 0; i < 4; i++)
                 add_own_triangle(sim, part, t + i, unit, air);
             continue;

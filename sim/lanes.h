@@ -52,14 +52,23 @@ static inline lanes lanes_select(lane_mask mask, lanes where_true, lanes where_f
     return (lanes)(((lane_mask)where_true & mask) | ((lane_mask)where_false & ~mask));
 }
 
+/* a > b ? a : b, also where one is no number; and likewise. */
 static inline lanes lanes_max(lanes a, lanes b)
 {
+#ifdef SIM_WIDE
+    return (lanes)__builtin_ia32_maxpd256(a, b);
+#else
     return lanes_select(a > b, a, b);
+#endif
 }
 
 static inline lanes lanes_min(lanes a, lanes b)
 {
+#ifdef SIM_WIDE
+    return (lanes)__builtin_ia32_minpd256(a, b);
+#else
     return lanes_select(a < b, a, b);
+#endif
 }
 
 static inline double lanes_largest(lanes a)
@@ -74,7 +83,17 @@ static inline lanes lanes_size(lanes a)
 
 static inline bool lanes_any(lane_mask mask)
 {
+#ifdef SIM_WIDE
+    return __builtin_ia32_movmskpd256((lanes)mask) != 0;
+#else
     return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
+#endif
+}
+
+/* Of four flags that follow each other, each 0 or 1. */
+static inline bool four_are_set(const unsigned char *flag)
+{
+    return flag[0] & flag[1] & flag[2] & flag[3];
 }
 
 static inline lanes lanes_sqrt(lanes a)

@@ -122,27 +122,45 @@ INLINE void add(struct square *a, struct square b)
     a->yy += b.yy;
 }
 
-/* Adds K d to the rows of the triangles' corners, one triangle after the other; those of other parts' points are left out. */
+/* Whose points are added to: a part's; or any, since all are. */
+struct reach {
+    bool all;
+    uint32_t begin, count;
+};
+
+INLINE struct reach reach_of(const struct sim_part *part)
+{
+    return (struct reach){false, part->point_begin, part->point_end - part->point_begin};
+}
+
+INLINE bool reaches(const struct reach *to, uint32_t point)
+{
+    return to->all || point - to->begin < to->count;
+}
+
+/* Adds K d to the rows of the triangles' corners, one triangle after the other; those of other parts' points are left out, unless it is known
+ * when this is compiled that there are none. */
 INLINE void add_to_corners(const struct tables *t, const struct group *g, struct lanes3 f1, struct lanes3 f2,
-                           uint32_t begin, uint32_t own, row *out)
+                           const struct reach *to, row *out)
 {
     row at1[4], at2[4];
     lanes_to_rows(f1, at1);
     lanes_to_rows(f2, at2);
     for (int i = 0; i < g->count; i++) {
         const uint32_t *p = t->point[g->triangle[i]];
-        if (p[0] - begin < own)
-            out[p[0]] -= at1[i] + at2[i];
-        if (p[1] - begin < own)
-            out[p[1]] += at1[i];
-        if (p[2] - begin < own)
-            out[p[2]] += at2[i];
+        const size_t a = p[0], b = p[1], c = p[2];
+        if (reaches(to, p[0]))
+            out[a] -= at1[i] + at2[i];
+        if (reaches(to, p[1]))
+            out[b] += at1[i];
+        if (reaches(to, p[2]))
+            out[c] += at2[i];
     }
 }
 
 /* What all the loops go by: forces of a group, or something else of it. `kind` and `viscous` are known when it is compiled. */
 INLINE void group_forces(const struct tables *t, const struct group *g, enum membrane_kind kind, bool viscous,
-                         uint32_t begin, uint32_t own, row *force, struct stretched *range)
+                         const struct reach *to, row *force, struct stretched *range)
 {
     const struct sides d = sides_of(t, t->position, g);
     const struct skin k = skin_of(t, g, &d);
@@ -153,7 +171,7 @@ INLINE void group_forces(const struct tables *t, const struct group *g, enum mem
         add(&stiff, viscous_of(t, &k, change_of_g(&d, &v)));
     }
     add_to_corners(t, g, lanes_sum(stiff.xx, d.d1, stiff.xy, d.d2), lanes_sum(stiff.xy, d.d1, stiff.yy, d.d2),
-                   begin, own, force);
+                   to, force);
     range->a = lanes_max(range->a, k.stretched.a);
     range->d = lanes_min(range->d, k.stretched.d);
 }
@@ -184,36 +202,40 @@ INLINE bool next_group(struct walk *walk, const unsigned char *active, struct gr
     return g->count > 0;
 }
 
-INLINE void forces_of(struct sim *sim, const struct sim_part *part, struct walk walk, enum membrane_kind kind,
-                      bool viscous, struct stretched *range)
+/* The forces of the triangles on such a way, one by one where they lie anyhow. */
+static void walk_forces(struct sim *sim, const struct sim_part *part, struct walk walk,
+                        struct stretched *range)
 {
     const struct tables t = tables_of(sim, part->balloon);
-    const uint32_t first = part->point_begin, own = part->point_end - first;
+    const struct reach own = reach_of(part);
     struct group g;
     while (next_group(&walk, t.active, &g))
-        group_forces(&t, &g, kind, viscous, first, own, sim->rows.force, range);
+        group_forces(&t, &g, t.law->kind, t.viscosity > 0, &own, sim->rows.force, range);
 }
 
-static void forces_by_law(struct sim *sim, const struct sim_part *part, struct walk walk,
-                          struct stretched *range)
+/* The same of a chunk's own, most of which follow each other by fours that are active and have all points in the part. */
+INLINE void chunk_forces(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk,
+                         enum membrane_kind kind, bool viscous, struct stretched *range)
 {
-    const struct membrane *m = part->balloon->membrane;
-    const bool viscous = m->viscosity > 0;
-    if (m->law.kind == MEMBRANE_OGDEN)
-        forces_of(sim, part, walk, MEMBRANE_OGDEN, viscous, range);
-    else if (m->law.kind == MEMBRANE_GENT)
-        forces_of(sim, part, walk, MEMBRANE_GENT, viscous, range);
-    else if (viscous)
-        forces_of(sim, part, walk, MEMBRANE_NEO_HOOKEAN, true, range);
-    else
-        forces_of(sim, part, walk, MEMBRANE_NEO_HOOKEAN, false, range);
+    const struct tables t = tables_of(sim, part->balloon);
+    const struct reach all = {.all = true};
+    const uint32_t inner_end = chunk->triangle_inner_end;
+    uint32_t i = chunk->triangle_begin;
+    for (; inner_end - i >= 4; i += 4)
+        if (four_are_set(&t.active[i])) {
+            const struct group g = {.triangle = {i, i + 1, i + 2, i + 3}, .count = 4};
+            group_forces(&t, &g, kind, viscous, &all, sim->rows.force, range);
+        } else {
+            walk_forces(sim, part, (struct walk){.next = i, .end = i + 4}, range);
+        }
+    walk_forces(sim, part, (struct walk){.next = i, .end = chunk->triangle_end}, range);
 }
 
 static void coming_forces(struct sim *sim, const struct sim_part *part)
 {
     struct stretched range = {.d = lanes_all(INFINITY)}; /* their own part takes it down */
-    const struct walk walk = {.list = part->triangle_in, .listed = part->triangle_in_count};
-    forces_by_law(sim, part, walk, &range);
+    walk_forces(sim, part, (struct walk){.list = part->triangle_in, .listed = part->triangle_in_count},
+                &range);
     double *kept = part->balloon->membrane->range[part - sim->parts];
     kept[0] = 0;
     kept[1] = INFINITY;
@@ -221,17 +243,25 @@ static void coming_forces(struct sim *sim, const struct sim_part *part)
 
 static void forces(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk)
 {
-    double *kept = part->balloon->membrane->range[part - sim->parts];
+    const struct membrane *m = part->balloon->membrane;
+    const bool viscous = m->viscosity > 0;
+    double *kept = m->range[part - sim->parts];
     struct stretched range = {.a = lanes_all(kept[0]), .d = lanes_all(kept[1])};
-    const struct walk walk = {.next = chunk->triangle_begin, .end = chunk->triangle_end};
-    forces_by_law(sim, part, walk, &range);
+    if (m->law.kind == MEMBRANE_OGDEN)
+        chunk_forces(sim, part, chunk, MEMBRANE_OGDEN, viscous, &range);
+    else if (m->law.kind == MEMBRANE_GENT)
+        chunk_forces(sim, part, chunk, MEMBRANE_GENT, viscous, &range);
+    else if (viscous)
+        chunk_forces(sim, part, chunk, MEMBRANE_NEO_HOOKEAN, true, &range);
+    else
+        chunk_forces(sim, part, chunk, MEMBRANE_NEO_HOOKEAN, false, &range);
     kept[0] = fmax(fmax(range.a[0], range.a[1]), fmax(range.a[2], range.a[3]));
     kept[1] = fmin(fmin(range.d[0], range.d[1]), fmin(range.d[2], range.d[3]));
 }
 
 /* With df = K dd + dK d: dK = ds M + du cof G + u cof dG, and that of the damping, c N: c = -V eta/a, N = M dG/dt M. */
 INLINE void group_product(const struct tables *t, const struct group *g, enum membrane_kind kind,
-                          uint32_t begin, uint32_t own, const struct jacobian_product *product)
+                          const struct reach *to, const struct jacobian_product *product)
 {
     const struct sides d = sides_of(t, t->position, g);
     struct sides e = sides_of(t, (const row *)product->dx, g);
@@ -267,17 +297,17 @@ INLINE void group_product(const struct tables *t, const struct group *g, enum me
     const lanes one = lanes_all(1);
     f1 = lanes_sum(one, f1, one, more1);
     f2 = lanes_sum(one, f2, one, more2);
-    add_to_corners(t, g, f1, f2, begin, own, (row *)product->out);
+    add_to_corners(t, g, f1, f2, to, (row *)product->out);
 }
 
 static void product(struct sim *sim, const struct sim_part *part, const struct jacobian_product *product)
 {
     const struct tables t = tables_of(sim, part->balloon);
-    const uint32_t first = part->point_begin, own = part->point_end - first;
+    const struct reach own = reach_of(part);
     struct walk walk = {part->triangle_in, part->triangle_in_count, part->triangle_begin, part->triangle_end};
     struct group g;
     while (next_group(&walk, t.active, &g))
-        group_product(&t, &g, t.law->kind, first, own, product);
+        group_product(&t, &g, t.law->kind, &own, product);
 }
 
 INLINE lanes group_energy(const struct tables *t, const struct group *g)

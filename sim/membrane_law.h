@@ -15,6 +15,9 @@
 
 enum { MEMBRANE_TERMS_MAX = 6, MEMBRANE_SERIES = 9 };
 
+/* Up to this alpha, or minus this, whole ones are multiplied out: rounding grows with its square. */
+#define MEMBRANE_WHOLE_MOST 8.
+
 /* The order of scene_law_names. */
 enum membrane_kind { MEMBRANE_NEO_HOOKEAN, MEMBRANE_MOONEY_RIVLIN, MEMBRANE_GENT, MEMBRANE_OGDEN };
 
@@ -24,6 +27,7 @@ struct membrane_law {
     double limit;       /* Gent's J */
     double compression; /* the share of W that is kept where the skin wrinkles: 1, it does not wrinkle */
     int terms;          /* Ogden's */
+    int whole;          /* of them, the first ones, whose alphas are small whole numbers */
     double power[MEMBRANE_TERMS_MAX], weight[MEMBRANE_TERMS_MAX]; /* alpha_p; m_p / alpha_p */
     /* Of Chebyshev's function of degree alpha_p/2 around 1 (membrane_response.h). */
     double series[MEMBRANE_TERMS_MAX][MEMBRANE_SERIES];

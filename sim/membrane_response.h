@@ -63,8 +63,9 @@ struct chebyshev {
 
 INLINE struct chebyshev chebyshev_series(const double *coefficient, lanes z)
 {
-    struct chebyshev t = {lanes_all(0), lanes_all(0), lanes_all(0)};
-    for (int k = MEMBRANE_SERIES - 1; k >= 0; k--) { /* Horner's scheme, three at once */
+    const lanes last = lanes_all(coefficient[MEMBRANE_SERIES - 1]);
+    struct chebyshev t = {last * z + coefficient[MEMBRANE_SERIES - 2], last, lanes_all(0)};
+    for (int k = MEMBRANE_SERIES - 3; k >= 0; k--) { /* Horner's scheme, three at once */
         t.second = t.second * z + 2 * t.first;
         t.first = t.first * z + t.value;
         t.value = t.value * z + coefficient[k];
@@ -107,6 +108,8 @@ INLINE struct chebyshev chebyshev_select(lane_mask mask, struct chebyshev a, str
 INLINE struct chebyshev chebyshev(double v, const double *coefficient, lanes z, lane_mask far, lanes y)
 {
     const lane_mask below = (lane_mask)(z < -CHEBYSHEV_NEAR);
+    if (!lanes_any(far | below))
+        return chebyshev_series(coefficient, z);
     struct chebyshev t = chebyshev_series(coefficient, lanes_select(far | below, lanes_all(0), z));
     if (lanes_any(far))
         t = chebyshev_select(far, chebyshev_far(v, z, y), t);
@@ -115,34 +118,134 @@ INLINE struct chebyshev chebyshev(double v, const double *coefficient, lanes z, 
     return t;
 }
 
-/* With x = a/(2 sqrt D), L1^alpha + L2^alpha = 2 D^(alpha/4) T(x) of the degree alpha/2, and L3^alpha = D^(-alpha/2). */
-INLINE struct response ogden_response(const struct membrane_law *law, struct stretched s, int asked)
+/* What Ogden's terms go by: P = L1 L2, S = L1 + L2, and 1 over them. */
+struct sums {
+    lanes p, s, by_p, by_s;
+};
+
+INLINE struct sums sums_of(struct stretched at)
 {
-    const lanes root = lanes_sqrt(s.d), i = 1 / s.d;
-    const lanes z = s.gap / (2 * root * (s.a + 2 * root)), x = 1 + z;
+    const lanes p = lanes_sqrt(at.d), s = lanes_sqrt(at.a + 2 * p), inverse = 1 / (p * s);
+    return (struct sums){p, s, inverse * s, inverse * p};
+}
+
+/* Of a function of S and P: itself and its derivatives. */
+struct by_sums {
+    lanes value, s, p, ss, sp, pp;
+};
+
+/* For a whole n, with U_k = (L1^k - L2^k)/(L1 - L2) = S U_(k-1) - P U_(k-2) and V_k = dU_k/dS: U_n and U_(n-1); V_n, V_(n-1) and V_(n-2);
+ * L1^n + L2^n = S U_n - 2 P U_(n-1); P^-n and P^(n-1). */
+struct multiplied {
+    lanes u, u1, v, v1, v2, both, shrunk, grown;
+};
+
+INLINE struct multiplied multiply_out(const struct sums *at, int n)
+{
+    const lanes none = lanes_all(0), one = lanes_all(1);
+    struct multiplied m = {
+        .u = one, .u1 = none, .v = none, .v1 = none, .v2 = none, .shrunk = at->by_p, .grown = one};
+    for (int k = 1; k < n; k++) {
+        const lanes u = at->s * m.u - at->p * m.u1, v = m.u + at->s * m.v - at->p * m.v1;
+        m.v2 = m.v1;
+        m.v1 = m.v;
+        m.v = v;
+        m.u1 = m.u;
+        m.u = u;
+        m.shrunk *= at->by_p;
+        m.grown *= at->p;
+    }
+    m.both = at->s * m.u - 2 * (at->p * m.u1);
+    return m;
+}
+
+/* L1^n + L2^n + L3^n - 3, times a weight: the sum's derivatives by S and P are n U_n and -n U_(n-1), and dU_k/dP is -V_(k-1). */
+INLINE void add_positive(struct by_sums *f, const struct sums *at, int n, double weight)
+{
+    const struct multiplied m = multiply_out(at, n);
+    const double slope = n * weight;
+    const lanes third = m.shrunk * at->by_p;
+    f->value += weight * (m.both + m.shrunk - 3);
+    f->s += slope * m.u;
+    f->p -= slope * (m.u1 + third);
+    f->ss += slope * m.v;
+    f->sp -= slope * m.v1;
+    f->pp += slope * (m.v2 + (n + 1) * third * at->by_p);
+}
+
+/* The same of -n: L1^-n + L2^-n is the sum of n times P^-n. */
+INLINE void add_negative(struct by_sums *f, const struct sums *at, int n, double weight)
+{
+    const struct multiplied m = multiply_out(at, n);
+    const double slope = n * weight;
+    const lanes shrunk = slope * m.shrunk, each = m.both * at->by_p;
+    f->value += weight * (m.both * m.shrunk + m.grown * at->p - 3);
+    f->s += shrunk * m.u;
+    f->p += slope * m.grown - shrunk * (m.u1 + each);
+    f->ss += shrunk * m.v;
+    f->sp -= shrunk * (m.v1 + n * m.u * at->by_p);
+    f->pp += shrunk * (m.v2 + (2 * n * m.u1 + (n + 1) * each) * at->by_p) +
+             slope * (n - 1) * m.grown * at->by_p;
+}
+
+/* The terms with whole powers, by a and D: dS/da = 1/(2 S), dS/dP = 1/S at the same a, dP/dD = 1/(2 P). */
+INLINE struct response whole_response(const struct membrane_law *law, const struct sums *at, int asked)
+{
+    const lanes none = lanes_all(0);
+    struct by_sums f = {none, none, none, none, none, none};
+    for (int t = 0; t < law->whole; t++) {
+        const int n = (int)law->power[t];
+        if (n > 0)
+            add_positive(&f, at, n, law->weight[t]);
+        else
+            add_negative(&f, at, -n, law->weight[t]);
+    }
+    const lanes half_p = .5 * at->by_p, half_s = .5 * at->by_s, by_p = f.p + f.s * at->by_s;
+    struct response w = {.energy = f.value, .a = half_s * f.s, .d = half_p * by_p};
+    if (asked & RESPONSE_SECOND) {
+        const lanes bend = (f.ss - f.s * at->by_s) * at->by_s;
+        w.aa = half_s * half_s * bend * at->s;
+        w.ad = half_p * half_s * (f.sp + bend);
+        w.dd = half_p * half_p * (f.pp + 2 * f.sp * at->by_s + bend * at->by_s - by_p * at->by_p);
+    }
+    return w;
+}
+
+/* Adds those with any powers. With x = a/(2 P), L1^alpha + L2^alpha = 2 D^(alpha/4) T(x) of the degree alpha/2, and L3^alpha = D^(-alpha/2). */
+INLINE void add_powers(struct response *w, const struct membrane_law *law, struct stretched s,
+                       const struct sums *at, int asked)
+{
+    const lanes i = at->by_p * at->by_p, z = .5 * s.gap * at->by_p * (at->by_s * at->by_s), x = 1 + z;
     const lane_mask far = (lane_mask)(z > CHEBYSHEV_NEAR);
     const lanes log_d = lanes_log(s.d),
                 y = lanes_any(far) ? lanes_log(x + lanes_sqrt(lanes_max(z, lanes_all(0)) * (2 + z)))
                                    : lanes_all(0);
-    const lanes xa = .5 / root, xd = -.5 * x * i; /* derivatives of x */
-    const lanes xad = -.25 * i / root, xdd = .75 * x * i * i;
-    struct response w = {0};
-    for (int p = 0; p < law->terms; p++) {
+    const lanes xa = .5 * at->by_p, xd = -.5 * x * i; /* derivatives of x */
+    const lanes xad = -.5 * xa * i, xdd = .75 * x * i * i;
+    for (int p = law->whole; p < law->terms; p++) {
         const double v = law->power[p] / 2, h = v / 2, weight = law->weight[p];
         const struct chebyshev t = chebyshev(v, law->series[p], z, far, y);
         const lanes power = lanes_exp(h * log_d), e = (2 * weight) * power, third = weight / (power * power);
         const lanes ed = h * e * i;
-        w.a += e * t.first * xa;
-        w.d += ed * t.value + e * t.first * xd - v * third * i;
+        w->a += e * t.first * xa;
+        w->d += (h * e * t.value - .5 * x * (e * t.first) - v * third) * i;
         if (asked & RESPONSE_ENERGY)
-            w.energy += e * t.value + third - 3 * weight;
+            w->energy += e * t.value + third - 3 * weight;
         if (asked & RESPONSE_SECOND) {
-            w.aa += e * t.second * xa * xa;
-            w.ad += ed * t.first * xa + e * (t.second * xa * xd + t.first * xad);
-            w.dd += (h - 1) * ed * i * t.value + 2 * ed * t.first * xd +
-                    e * (t.second * xd * xd + t.first * xdd) + v * (v + 1) * third * i * i;
+            w->aa += e * t.second * xa * xa;
+            w->ad += ed * t.first * xa + e * (t.second * xa * xd + t.first * xad);
+            w->dd += (h - 1) * ed * i * t.value + 2 * ed * t.first * xd +
+                     e * (t.second * xd * xd + t.first * xdd) + v * (v + 1) * third * i * i;
         }
     }
+}
+
+INLINE struct response ogden_response(const struct membrane_law *law, struct stretched s, int asked)
+{
+    const struct sums at = sums_of(s);
+    struct response w = whole_response(law, &at, asked);
+    if (law->whole < law->terms)
+        add_powers(&w, law, s, &at, asked);
     return w;
 }
 
