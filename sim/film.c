@@ -8,11 +8,13 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 struct film {
     struct skins skins;
     struct render *render;
     struct render_view view;
+    double ball[4];           /* around all points at rest: centre, radius */
     double away[3];           /* from the target to the eye, as the scene has it */
     struct frames *frames[2]; /* of both eyes, or the left one's with the second NULL */
     const char *folder;       /* whose frames of an earlier run are still there; or NULL */
@@ -64,6 +66,8 @@ enum status film_open(struct sim *sim, const double centre[3], double radius,
     if (!film)
         return error_no_memory(err, "the film");
     skins_camera(sim, centre, radius, &film->view);
+    memcpy(film->ball, centre, 3 * sizeof *centre);
+    film->ball[3] = radius;
     vec3_sub(film->view.camera.eye, film->view.camera.target, film->away);
     film->folder = options->folder;
     film->first = options->first;
@@ -123,6 +127,7 @@ enum status film_frame(struct film *film, struct error *err)
 {
     enum status status = STATUS_OK;
     skins_update(&film->skins);
+    skins_floor(&film->skins, film->ball, &film->view);
     for (int eye = 0; eye < 2 && film->frames[eye] && !status; eye++)
         status = draw_eye(film, eye, err);
     return status;

@@ -132,10 +132,10 @@ static enum status draw_all(struct drawing *d, struct price_pictures *pictures, 
     return status;
 }
 
-static enum status picture_scene(struct sim *sim, const double centre[3], double radius, struct drawing *d,
+static enum status picture_scene(struct sim *sim, const double ball[4], struct drawing *d,
                                  struct price_pictures *pictures, struct error *err)
 {
-    skins_camera(sim, centre, radius, &d->view);
+    skins_camera(sim, ball, ball[3], &d->view);
     pictures->size[0] = d->view.width;
     pictures->size[1] = d->view.height;
     enum status status = skins_init(&d->skins, sim, err);
@@ -143,6 +143,7 @@ static enum status picture_scene(struct sim *sim, const double centre[3], double
         status = render_open(d->view.width, d->view.height, &d->render, err);
     if (!status) {
         skins_update(&d->skins);
+        skins_floor(&d->skins, ball, &d->view);
         status = draw_all(d, pictures, err);
     }
     render_close(d->render);
@@ -168,16 +169,16 @@ enum status price_pictures_measure(const struct scene *scene, const struct mesh 
 {
     struct drawing drawing = {.options = options, .wanted = PRICE_PICTURES_MAX};
     struct sim sim = {0};
-    double centre[3], radius = 0;
+    double ball[4];
     *pictures = (struct price_pictures){.own_order = scene->view.order, .own_samples = scene->view.samples};
     enum status status = sim_open(&sim, scene, meshes, 1, err);
     if (!status)
-        radius = skins_ball(&sim, centre);
+        ball[3] = skins_ball(&sim, ball);
     while (!status && sim.time + sim.step / 2 < time && !sim_at_end(&sim))
         status = sim_step(&sim, err);
     pictures->time = sim.time;
     if (!status)
-        status = picture_scene(&sim, centre, radius, &drawing, pictures, err);
+        status = picture_scene(&sim, ball, &drawing, pictures, err);
     sim_clear(&sim);
     return give_reason(status, pictures, err);
 }

@@ -6,6 +6,10 @@
 
 #include <stdlib.h>
 
+/* How far below the middle the floor lies, in radii of the ball around all points at rest: legs reach further down than the first, and swollen
+ * skin about to the second. */
+static const double floor_least = 0.6, floor_most = 1.8;
+
 /* IEC 61966-2-1. */
 static float linear_light(double srgb)
 {
@@ -83,8 +87,22 @@ void skins_update(struct skins *skins)
             }
         }
     sim_material(skins->sim, skins->opacity, skins->shininess);
-    for (uint32_t t = 0; t < sim->triangle_count; t++)
+    skins->lowest = INFINITY;
+    for (uint32_t t = 0; t < sim->triangle_count; t++) {
         skins->stretch[t] = area_stretch(sim, t);
+        for (int k = 0; k < 3 && sim->triangle_active[t]; k++)
+            skins->lowest = fmin(skins->lowest, sim->position[sim->triangle_point[t][k]][1]);
+    }
+}
+
+void skins_floor(const struct skins *skins, const double ball[4], struct render_view *view)
+{
+    const struct scene_ground *ground = &skins->sim->scene->ground;
+    const bool level = ground->on && ground->normal[0] == 0 && ground->normal[2] == 0 &&
+                       ground->normal[1] > 0;
+    const double below = fmin(fmax((ball[1] - skins->lowest) / ball[3], floor_least), floor_most);
+    view->floor = true;
+    view->floor_height = level ? ground->height : ball[1] - below * ball[3];
 }
 
 void skins_view(const struct scene_view *scene, struct render_view *view)
@@ -126,8 +144,6 @@ void skins_camera(const struct sim *sim, const double centre[3], double radius, 
     camera->eye_distance = scene->eye_distance * camera->screen_distance;
     skins_view(scene, view);
     view->outlines = RENDER_SAMPLED;
-    view->floor = true;
-    view->floor_height = centre[1] - 1.8 * radius; /* it floats, with room to swell */
 }
 
 double skins_ball(const struct sim *sim, double centre[3])

@@ -208,8 +208,6 @@ static void set_camera(struct app *app)
     app->view.order = RENDER_SORT; /* live; films are as the scene says */
     app->view.samples = 1;
     app->view.outlines = RENDER_SAMPLED;
-    app->view.floor = true;
-    app->view.floor_height = app->ball[1] - 1.8 * radius; /* as in the film */
 }
 
 /* Where the scene asks for two buffers and the screen has them. */

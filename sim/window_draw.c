@@ -164,9 +164,11 @@ struct render_view app_drawn_view(const struct app *app)
 }
 
 /* All but what lies on the glass. */
-static enum status make_scene(struct app *app, struct render_scene *scene, struct error *err)
+static enum status make_scene(struct app *app, struct render_view *view, struct render_scene *scene,
+                              struct error *err)
 {
     skins_update(&app->skins);
+    skins_floor(&app->skins, app->ball, view);
     if (app->wires != WIRES_ALONE && app->stretch_colours) {
         fill_bands(app);
         scene->skins = app->bands.skin;
@@ -216,8 +218,8 @@ void app_draw(struct app *app)
     struct render_scene scene = {.texts = texts};
     struct error err = {0};
     const double begun = app_seconds();
-    const struct render_view view = app_drawn_view(app);
-    enum status status = make_scene(app, &scene, &err);
+    struct render_view view = app_drawn_view(app);
+    enum status status = make_scene(app, &view, &scene, &err);
     scene.text_count = app_texts(app, texts);
     if (app_make_boxes(app)) {
         scene.boxes = app->boxes.items;
@@ -234,7 +236,7 @@ enum status app_draw_image(struct app *app, struct error *err)
 {
     struct render_scene scene = {0};
     struct render_view view = app_drawn_view(app);
-    enum status status = make_scene(app, &scene, err);
+    enum status status = make_scene(app, &view, &scene, err);
     if (view.stereo == RENDER_QUAD)
         view.stereo = RENDER_PARALLEL; /* an image has no two buffers */
     orbit_make_even(&view);

@@ -1,0 +1,66 @@
+/* Where the floor of a simulation's picture lies. */
+#include "balloon.h"
+#include "sim/skins.h"
+
+/* In radii below the middle at rest, once all points have moved up by `up` radii and are `swollen` as large. */
+static double depth_of_floor(const char *const *settings, double up, double swollen)
+{
+    struct error err;
+    struct balloon b;
+    struct skins skins;
+    struct render_view view = {0};
+    double ball[4];
+    open_balloon(&b, 3, settings);
+    ball[3] = skins_ball(&b.sim, ball);
+    for (uint32_t p = 0; p < b.sim.point_count; p++)
+        for (int i = 0; i < 3; i++)
+            b.sim.position[p][i] = ball[i] + swollen * (b.sim.position[p][i] - ball[i]) +
+                                   (i == 1) * up * ball[3];
+    assert_ok(skins_init(&skins, &b.sim, &err), &err);
+    skins_update(&skins);
+    skins_floor(&skins, ball, &view);
+    assert_true(view.floor);
+    skins_clear(&skins);
+    close_balloon(&b);
+    return (ball[1] - view.floor_height) / ball[3];
+}
+
+/* The lowest of an icosphere's points is on the ball. */
+static void skin_stands_on_the_floor_while_it_swells(void **state)
+{
+    (void)state;
+    const char *const *plain = SETTINGS("balloons[0].pressure=0");
+    assert_near(depth_of_floor(plain, 0, 1), 1, 1e-9);
+    assert_near(depth_of_floor(plain, 0, 1.4), 1.4, 1e-9);
+    assert_near(depth_of_floor(plain, 0.3, 1), 0.7, 1e-9);
+}
+
+static void the_floor_does_not_follow_what_flies_away(void **state)
+{
+    (void)state;
+    const char *const *plain = SETTINGS("balloons[0].pressure=0");
+    assert_near(depth_of_floor(plain, 5, 1), 0.6, 1e-9);
+    assert_near(depth_of_floor(plain, -5, 1), 1.8, 1e-9);
+}
+
+/* Its middle at rest is at 0. */
+static void level_ground_is_the_floor_and_a_slope_is_not(void **state)
+{
+    (void)state;
+    const char *const *level = SETTINGS("balloons[0].radius=10", "ground.height=-25");
+    const char *const *slope = SETTINGS("balloons[0].radius=10", "ground.height=-25",
+                                        "ground.normal=[1,2,0]");
+    assert_near(depth_of_floor(level, 0, 1), 2.5, 1e-9);
+    assert_near(depth_of_floor(level, 5, 1), 2.5, 1e-9);
+    assert_near(depth_of_floor(slope, 0, 1), 1, 1e-9);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(skin_stands_on_the_floor_while_it_swells),
+        cmocka_unit_test(the_floor_does_not_follow_what_flies_away),
+        cmocka_unit_test(level_ground_is_the_floor_and_a_slope_is_not),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
