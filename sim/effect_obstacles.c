@@ -42,7 +42,8 @@ static struct obstacle make_obstacle(const struct scene_obstacles *given)
     return o;
 }
 
-static enum status refuse_inside(const struct sim *sim, size_t item, uint32_t point, struct error *err)
+static enum status refuse_inside(const struct sim *sim, size_t item, size_t balloon, uint32_t point,
+                                 struct error *err)
 {
     const struct scene *scene = sim->scene;
     const bool ground = scene->ground.on && item == 0;
@@ -53,9 +54,6 @@ static enum status refuse_inside(const struct sim *sim, size_t item, uint32_t po
         snprintf(where, sizeof where, "obstacles[%zu]", number);
     if (line)
         snprintf(at, sizeof at, ":%u", line);
-    size_t balloon = 0;
-    while (point >= sim->balloons[balloon].point_end)
-        balloon++;
     const double *x = sim->position[point];
     return error_set(err, STATUS_INPUT,
                      "%s%s: balloons[%zu] begins inside %s, with its point at (%g, %g, %g); move one of them",
@@ -65,9 +63,10 @@ static enum status refuse_inside(const struct sim *sim, size_t item, uint32_t po
 static enum status check_outside(const struct sim *sim, struct error *err)
 {
     for (size_t i = 0; i < sim->obstacles->count; i++)
-        for (uint32_t p = 0; p < sim->point_count; p++)
-            if (obstacle_holds(&sim->obstacles->items[i], sim->position[p]))
-                return refuse_inside(sim, i, p, err);
+        for (size_t b = 0; b < sim->balloon_count; b++)
+            for (uint32_t p = sim->balloons[b].point_begin; p < sim->balloons[b].point_end; p++)
+                if (obstacle_holds(&sim->obstacles->items[i], sim->position[p]))
+                    return refuse_inside(sim, i, b, p, err);
     return STATUS_OK;
 }
 

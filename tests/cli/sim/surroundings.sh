@@ -16,3 +16,8 @@ tail -n 1 .stdout >one
 expect 0 balloon-sim pressed.cfg -q --hash --threads 3 --set time.end=0.8
 tail -n 1 .stdout >three
 cmp -s one three || fail "another hash with three threads"
+
+# Points that only a tear would make are not in anything's way yet.
+printf 'time = { end = 0.1; };\nballoons = ( { mesh = "sphere.ply"; position = [0.0, 100.0, 0.0]; membrane = { thickness = 0.45; }; fracture = { }; } );\n' >high.cfg
+printf 'ground = { height = 20; };\nobstacles = ( { } );\n' >>high.cfg
+expect 0 balloon-sim -q high.cfg --hash
