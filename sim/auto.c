@@ -15,6 +15,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Cheap ones first: what cannot beat the best so far is not tried. The last two, which solve equations and share what they keep,
  * are open only where the others would have to split steps in more than STIFF. */
@@ -185,7 +186,7 @@ static struct option find_best(struct sim *sim)
             next[i].result.work = fmax(next[i].result.work, m->memory.spent[i] / 2);
         m->memory.spent[i] = 0;
     }
-    for (int trials = 0; trials < TRIALS_MAX; trials++) {
+    for (int trials = 0; trials < TRIALS_MAX && sim_goes_on(sim); trials++) {
         struct option *cheapest = find_cheapest(next);
         if (isinf(cheapest->result.work) || cheapest->result.error <= tolerance)
             return isinf(cheapest->result.work) ? nearest : *cheapest;
@@ -224,12 +225,18 @@ static void take(struct sim *sim, const struct option *option)
 }
 
 /* sim->acting and wanted_substeps follow from what is remembered: also where that comes out of a file. */
-static void choose(struct sim *sim, bool first)
+static bool choose(struct sim *sim, bool first)
 {
     struct auto_method *m = sim->method;
     sim->acting = candidates[m->memory.candidate];
     if (first && is_due(sim)) {
+        double spent[CANDIDATES];
+        memcpy(spent, m->memory.spent, sizeof spent);
         const struct option best = find_best(sim);
+        if (!sim_goes_on(sim)) { /* as if it had never begun: whoever resumes the run chooses anew */
+            memcpy(m->memory.spent, spent, sizeof spent);
+            return false;
+        }
         take(sim, &best);
     }
     m->memory.steps += first;
@@ -238,6 +245,7 @@ static void choose(struct sim *sim, bool first)
         guard_outdated(sim);
     }
     sim->wanted_substeps = (uint32_t)m->memory.parts;
+    return true;
 }
 
 static enum status advance(struct sim *sim, double dt, struct error *err)

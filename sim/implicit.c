@@ -230,11 +230,11 @@ static bool has_turned(struct sim *sim)
     return turned;
 }
 
-/* Whether a trial has had enough of this method. */
+/* Whether a trial has had enough of this method, or has to end. */
 static bool is_too_dear(const struct sim *sim)
 {
     const struct implicit *m = sim->method;
-    return m->iterations_most && m->solver.iterations > m->iterations_most;
+    return m->iterations_most && (m->solver.iterations > m->iterations_most || !sim_goes_on(sim));
 }
 
 enum status implicit_step(struct sim *sim, double dt, bool (*take)(struct sim *sim, double h),

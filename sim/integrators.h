@@ -26,8 +26,8 @@ struct integrator {
                         struct error *err); /* makes sim->method, all zero before; NULL: nothing to make */
     void (*close)(struct sim *sim);         /* NULL: nothing to free */
     /* Before each step, `first` where it is the first of one of the scene's: which method acts, and in how many substeps at the
-     * least. NULL: this one, in one. */
-    void (*choose)(struct sim *sim, bool first);
+     * least. False: sim->goes_on said no, and nothing is chosen. NULL: this one, in one. */
+    bool (*choose)(struct sim *sim, bool first);
     enum status (*advance)(struct sim *sim, double dt, struct error *err);
     /* What it remembers from step to step, as blocks; returns how many. NULL: nothing. */
     size_t (*blocks)(struct sim *sim, struct sim_block *blocks);

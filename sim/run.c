@@ -113,12 +113,17 @@ static enum status step_to_end(struct run *run, struct error *err)
     progress_update(sim->time / end * steps);
     while (!status && !sim_at_end(sim)) {
         status = step(run, err);
-        if (!status)
+        if (!status || status == STATUS_INTERRUPTED)
             status = look_up(run, err);
         progress_update(sim->time / end * steps);
     }
     progress_end();
     return !status && run->options->checkpoint ? keep(run, err) : status;
+}
+
+static bool goes_on(void)
+{
+    return !interrupt_caught();
 }
 
 /* What cannot be written is found out before the work, not after it. */
@@ -207,6 +212,7 @@ enum status run(const struct options *options, struct sim *sim, struct estimate 
 {
     struct run run = {.options = options, .sim = sim, .outputs = {.estimate = estimate}, .first_break = -1};
     interrupt_watch();
+    sim->goes_on = goes_on;
     enum status status = begin(&run, err);
     if (!status)
         status = step_to_end(&run, err);

@@ -204,6 +204,10 @@ struct sim {
     /* Since the last step an edge let go, the schedule changed something, forces jumped: methods that remember begin anew. */
     bool changed;
 
+    /* Asked within what may be long in a step, the trials of auto; false ends it with STATUS_INTERRUPTED, as it was before. NULL: nobody
+     * asks. */
+    bool (*goes_on)(void);
+
     /* What a method that chooses its own steps goes by and leaves. */
     double due;           /* s: where it must stop, at a change or the end; or INFINITY */
     double taken;         /* s: how far the last advance() moved; it comes in as the longest that it may be */
@@ -247,7 +251,7 @@ enum status sim_open(struct sim *sim, const struct scene *scene, const struct me
 void sim_clear(struct sim *sim);
 
 /* One time step (step.c). Errors: STATUS_DIVERGED with point, time and what is likely to blame; the state is left as it
- * is, for a look. */
+ * is, for a look; STATUS_INTERRUPTED by goes_on, the state as before the step. */
 enum status sim_step(struct sim *sim, struct error *err);
 
 /* Forces on every point at the current positions and velocities; for the integrators. */
@@ -331,6 +335,11 @@ void sim_material(const struct sim *sim, float *opacity, float *shininess);
 
 /* A fingerprint of the whole state: equal states, equal numbers. */
 uint64_t sim_hash(struct sim *sim);
+
+static inline bool sim_goes_on(const struct sim *sim)
+{
+    return !sim->goes_on || sim->goes_on();
+}
 
 /* Applies one entry of the schedule (schedule.c). */
 void sim_change(struct sim *sim, const struct scene_schedule *entry);

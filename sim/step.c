@@ -138,8 +138,8 @@ static enum status begin_step(struct sim *sim, struct error *err)
     const bool first = sim->steps_since % sim->substeps == 0;
     if (first)
         change_by_schedule(sim);
-    if (sim->integrator->choose)
-        sim->integrator->choose(sim, first);
+    if (sim->integrator->choose && !sim->integrator->choose(sim, first))
+        return error_set(err, STATUS_INTERRUPTED, "interrupted at %g s", sim->time);
     return guard_step(sim, first, err);
 }
 

@@ -30,13 +30,13 @@ static void put_back(struct sim *sim, int rows)
     sim->changed = true;
 }
 
-/* False: the method gave up. */
+/* False: the method gave up, or the trial had to. */
 static bool advance_by(struct sim *sim, const struct integrator *method, uint32_t parts, uint32_t steps)
 {
     struct error ignored = {0};
     const double dt = sim->whole_step / parts;
     for (uint64_t i = 0; i < (uint64_t)parts * steps; i++) {
-        if (method->advance(sim, dt, &ignored))
+        if (!sim_goes_on(sim) || method->advance(sim, dt, &ignored))
             return false;
         sim->changed = false;
     }

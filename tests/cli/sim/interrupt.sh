@@ -36,3 +36,17 @@ hash=$(tail -n 1 .stdout)
 expect 0 balloon-sim m.ply --set time.end=$end --set 'balloons[0].pressure=0' --hash
 [ "$(tail -n 1 .stdout)" = "$hash" ] || fail "another hash than without the interruption"
 only_files m.ply log.tsv run.ck
+
+# Also while the first method is being chosen, which takes long where the wind is a storm: nothing has begun then, and the run goes on from there.
+cp "$PROGRAMS/data/sphere.ply" .
+printf 'time = { end = 0.05; };\nballoons = ( { mesh = "sphere.ply"; membrane = { thickness = 0.45; }; gas = { ambient = 6; }; } );\ndrag = { wind = [1e6, 0.0, 0.0]; };\n' >storm.cfg
+env --default-signal=INT balloon-sim storm.cfg --checkpoint storm.ck >.stdout 2>.stderr &
+job=$!
+sleep 2
+kill -s INT $job
+got=0
+wait $job || got=$?
+command_line="balloon-sim storm.cfg (SIGINT)"
+[ "$got" = 130 ] || fail "exit $got, wanted 130"
+stderr_has 'interrupted at 0 s, after 0 steps; to go on: the same command with --resume storm.ck'
+a_file storm.ck
