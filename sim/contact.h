@@ -21,14 +21,6 @@
 
 #include "sim/contact_tree.h"
 
-/* A point and a triangle, or two edges. With `gone` from 0 where the lines begin to 1 at their ends they are, on the lines, no nearer
- * than distance - gone x approach. */
-struct contact_pair {
-    uint32_t point[4]; /* the point and the triangle's corners, or the ends of one edge and of the other */
-    uint32_t kind;     /* enum ccd_kind */
-    float distance, approach;
-};
-
 /* Pairs on trial, of each kind, until there are some to try at once. */
 enum { CONTACT_TAKEN = 128 };
 struct contact_taken {

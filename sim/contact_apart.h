@@ -108,10 +108,12 @@ static inline struct apart_ways apart_gather(const struct contact_flock *flock, 
     struct apart_ways f;
     lanes8 numbers = lanes8_all(0);
     for (int k = 0; k < 4; k++) {
-        lanes8 rows[8];
+        lanes8 rows[8], turned[8];
         for (int i = 0; i < 8; i++)
             rows[i] = *(const lanes8 *)flock->ends[points[i][k]];
-        lanes8_turn(rows, &f.first.x[k], &f.last.x[k]);
+        lanes8_turn(rows, turned);
+        f.first.x[k] = (struct lanes8_vec){turned[0], turned[1], turned[2]};
+        f.last.x[k] = (struct lanes8_vec){turned[4], turned[5], turned[6]};
         numbers = lanes8_max(numbers, lanes8_max(apart_numbers(f.first.x[k]), apart_numbers(f.last.x[k])));
         f.first.x[k] = lanes8_add(f.first.x[k], lanes8_all(flock->gone),
                                   lanes8_sub(f.last.x[k], f.first.x[k]));

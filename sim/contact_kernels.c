@@ -1,5 +1,6 @@
 /* Four triangles at once (lanes.h), and eight pairs (contact_apart.h). SIM_CONTACT is the name of the table at the end. */
 #include "sim/contact_apart.h"
+#include "sim/contact_sift.h"
 #include "sim/lanes.h"
 
 #ifdef __AVX__
@@ -42,7 +43,8 @@ static inline bool meets(const struct turned *a, const struct contact_box *b)
 }
 
 /* Those of a group that meet the box that another is in. */
-static inline uint32_t sift(const struct contact_group *group, const struct contact_box *all, uint8_t *kept)
+static inline uint32_t near_of(const struct contact_group *group, const struct contact_box *all,
+                               uint8_t *kept)
 {
     const struct turned turned = turn(all);
     uint32_t count = 0;
@@ -56,7 +58,7 @@ static inline uint32_t sift(const struct contact_group *group, const struct cont
 static uint32_t meet(const struct contact_group *a, const struct contact_group *b, uint8_t (*couples)[2])
 {
     uint8_t first[UINT8_MAX], second[UINT8_MAX];
-    const uint32_t firsts = sift(a, b->all, first), seconds = firsts ? sift(b, a->all, second) : 0;
+    const uint32_t firsts = near_of(a, b->all, first), seconds = firsts ? near_of(b, a->all, second) : 0;
     uint32_t count = 0;
     for (uint32_t i = 0; i < firsts; i++) {
         const struct turned turned = turn(&a->box[first[i]]);
@@ -213,4 +215,4 @@ static void sides(const struct contact_ways *ways, uint32_t (*triangle_point)[3]
 }
 
 extern const struct contact_kernels SIM_CONTACT;
-const struct contact_kernels SIM_CONTACT = {meet, round_places, apart, open, sides};
+const struct contact_kernels SIM_CONTACT = {meet, round_places, apart, open, sift, sides};

@@ -22,6 +22,23 @@ struct contact_flock {
     float gone;       /* the first places are so far on the way */
 };
 
+/* A point and a triangle, or two edges. With `gone` from 0 where the lines begin to 1 at their ends they are, on the lines, no nearer
+ * than distance - gone x approach, which is a hair too small, for what single precision rounds. */
+struct contact_pair {
+    _Alignas(32) uint32_t
+        point[4];  /* the point and the triangle's corners, or the ends of one edge and of the other */
+    uint32_t kind; /* enum ccd_kind */
+    float distance, approach;
+};
+
+/* What is known of the pairs' points, when some of them are to be told from those that cannot touch. */
+struct contact_sieve {
+    const float *off;      /* [point_count] how far each may be from its line */
+    float growth, gone[2]; /* of the balloon, no more than 1; at the step's beginning and end */
+    float gap;             /* half the thickness */
+    float more; /* what sleeps cannot touch before its points are further off, together, by so much */
+};
+
 /* Where the points go, how far each may stray from that, and how much room is wanted around it. */
 struct contact_ways {
     double (*from)[4], (*to)[4]; /* [point_count] */
@@ -56,6 +73,14 @@ struct contact_kernels {
      */
     uint32_t (*open)(const struct contact_flock *flock, double thickness, uint32_t (*points)[4],
                      uint32_t count, uint32_t *open);
+
+    /*
+     * Which of pairs[which[0]] to pairs[which[count - 1]] may touch, by how far their points are from their lines: near becomes which ones, in order, and the call
+     * returns how many. which NULL: the pairs from the first on; then awake[i] becomes whether pair i does not sleep. There is room for a multiple of eight in all
+     * but near, and pairs have points there too.
+     */
+    uint32_t (*sift)(const struct contact_sieve *sieve, const struct contact_pair *pairs,
+                     const uint32_t *which, uint32_t count, unsigned char *awake, uint32_t *near);
 
     /* sides[t] becomes, for `count` of the triangles, a bit for each of 26 directions that its normal looks to all the way, whatever its points stray. */
     void (*sides)(const struct contact_ways *ways, uint32_t (*triangle_point)[3], const uint32_t *triangles,

@@ -60,31 +60,11 @@ bool contact_approaches(const struct sim *sim, const struct contact_pair *pair, 
     return ccd_meet(kind, a->from, a->to, gap, &a->touch);
 }
 
-/* A pair that sleeps has points that may come to be further off by `more`, together, than they were when all were looked at. */
 struct look {
     const struct sim *sim;
     bool zones;
-    float growth, gone[2]; /* at the step's beginning and end */
-    float gap, more;       /* gap: half the thickness */
+    struct contact_sieve by;
 };
-
-static inline float larger(float a, float b)
-{
-    return a > b ? a : b;
-}
-
-/* How much further the points of a pair would have to be off before it could touch, by what is known of their lines; 0 and less: it may. What is known is
- * a hair too small, for the rounding here. Without branches, since nobody can guess. */
-static inline float spare_of(const struct look *look, const struct contact_pair *pair)
-{
-    const float *off = look->sim->contact->off;
-    const uint32_t *p = pair->point;
-    const float first = off[p[0]], second = off[p[1]], high = larger(off[p[2]], off[p[3]]);
-    const bool edges = pair->kind == CCD_EDGES;
-    const float apart = pair->distance - look->gone[pair->approach > 0] * pair->approach;
-    return look->growth * apart - look->gap - larger(first, edges ? second : 0) -
-           larger(high, edges ? 0 : second);
-}
 
 /* Pairs of a kind that are worth a nearer look, some at a time. */
 enum { PAIRS_AT_ONCE = 256, POINTS_AT_ONCE = 8 };
@@ -146,15 +126,11 @@ static void look_at_some(void *context, size_t index, unsigned worker)
     const struct contact *c = sieve.look->sim->contact;
     const uint32_t begin = (uint32_t)index * PAIRS_AT_ONCE,
                    end = begin + PAIRS_AT_ONCE < c->pair_count ? begin + PAIRS_AT_ONCE : c->pair_count;
-    uint32_t kept[PAIRS_AT_ONCE], count = 0;
-    for (uint32_t i = begin; i < end; i++) {
-        kept[count] = i;
-        const float spare = spare_of(sieve.look, &c->pairs[i]);
-        count += spare <= 0;
-        c->awake[i] = spare <= sieve.look->more;
-    }
+    uint32_t near[PAIRS_AT_ONCE];
+    const uint32_t count = c->tree.kernels->sift(&sieve.look->by, &c->pairs[begin], NULL, end - begin,
+                                                 &c->awake[begin], near);
     for (uint32_t i = 0; i < count; i++)
-        take_in(&sieve, kept[i]);
+        take_in(&sieve, begin + near[i]);
     end_look(&sieve);
 }
 
@@ -169,14 +145,17 @@ static inline bool is_first(const struct contact *c, const uint32_t *p, uint32_t
 static void take_links_in(struct sieve *sieve, uint32_t *links, uint32_t count)
 {
     const struct contact *c = sieve->look->sim->contact;
-    uint32_t kept = 0;
+    uint32_t kept = 0, near[PAIRS_AT_ONCE];
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t pair = links[i] / 4, place = links[i] % 4;
         links[kept] = pair;
-        kept += is_first(c, c->pairs[pair].point, place) & (spare_of(sieve->look, &c->pairs[pair]) <= 0);
+        kept += is_first(c, c->pairs[pair].point, place);
     }
+    for (uint32_t i = kept; i % 8 != 0; i++)
+        links[i] = links[kept - 1];
+    kept = c->tree.kernels->sift(&sieve->look->by, c->pairs, links, kept, NULL, near);
     for (uint32_t i = 0; i < kept; i++)
-        take_in(sieve, links[i]);
+        take_in(sieve, near[i]);
 }
 
 static void look_at_links(void *context, size_t index, unsigned worker)
@@ -249,23 +228,16 @@ static void drop_equal_hits(struct contact *c)
     c->hit_count = count;
 }
 
-/* Single precision is off by less than what pairs are known to be nearer than they are. */
-static struct look look_of(const struct sim *sim, bool zones)
-{
-    const struct contact *c = sim->contact;
-    return (struct look){sim,
-                         zones,
-                         (float)fmin(1, fmin(c->memory.began.growth, c->motion.growth)),
-                         {(float)contact_list_gone_before(sim), (float)contact_list_gone(sim)},
-                         (float)(c->thickness * 0.5000001),
-                         (float)(c->thickness * 0.6)};
-}
-
 static bool look(struct sim *sim, bool zones, size_t count,
                  void (*function)(void *context, size_t index, unsigned worker))
 {
     struct contact *c = sim->contact;
-    struct look look = look_of(sim, zones);
+    const struct contact_sieve by = {c->off,
+                                     (float)fmin(1, fmin(c->memory.began.growth, c->motion.growth)),
+                                     {(float)contact_list_gone_before(sim), (float)contact_list_gone(sim)},
+                                     (float)(c->thickness * 0.5000001),
+                                     (float)(c->thickness * 0.6)};
+    struct look look = {sim, zones, by};
     c->hit_count = 0;
     threads_run(sim->pool, count, function, &look);
     sort_hits(c);
@@ -284,7 +256,7 @@ bool contact_look(struct sim *sim)
     struct contact *c = sim->contact;
     struct contact_rounding ways = round_ways(sim);
     contact_round(sim, &ways);
-    const float more = (float)c->thickness / 4; /* of two points that is less than look.more */
+    const float more = (float)c->thickness / 4; /* of two points that is less than contact_sieve.more */
     for (uint32_t p = 0; p < sim->point_count; p++)
         c->bound[p] = c->off[p] + more;
     return look(sim, false, (c->pair_count + PAIRS_AT_ONCE - 1) / PAIRS_AT_ONCE, look_at_some);

@@ -51,12 +51,12 @@ static bool allocate(struct sim *sim, struct contact *c)
     c->lines = sim_table(sim, points, sizeof *c->lines);
     c->ways = sim_table(sim, points, sizeof *c->ways);
     c->taken = sim_table(sim, threads_workers(sim->pool), sizeof *c->taken);
-    c->pairs = sim_table(sim, c->pair_capacity, sizeof *c->pairs);
+    c->pairs = sim_table(sim, (size_t)c->pair_capacity + 8, sizeof *c->pairs); /* eight at a time */
     c->link = sim_table(sim, 4 * (size_t)c->pair_capacity, sizeof *c->link);
     c->link_end = sim_table(sim, points, sizeof *c->link_end);
     c->chain = sim_table(sim, points, sizeof *c->chain);
     c->bound = sim_table(sim, points, sizeof *c->bound);
-    c->awake = sim_table(sim, c->pair_capacity, 1);
+    c->awake = sim_table(sim, (size_t)c->pair_capacity + 8, 1);
     c->hits = sim_table(sim, c->pair_capacity, sizeof *c->hits);
     c->moved = sim_table(sim, points, sizeof *c->moved);
     c->again = sim_table(sim, points, sizeof *c->again);

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
-#ifdef __AVX__
+#ifdef __SSE__
 #include <immintrin.h>
 #endif
 
@@ -74,6 +74,9 @@ static inline unsigned lanes8_bits(lanes8_mask mask)
 {
 #ifdef __AVX__
     return (unsigned)_mm256_movemask_ps((__m256)mask);
+#elif defined __SSE__
+    const __m128 *half = (const __m128 *)&mask;
+    return (unsigned)(_mm_movemask_ps(half[0]) | _mm_movemask_ps(half[1]) << 4);
 #else
     unsigned bits = 0;
     for (int i = 0; i < 8; i++)
@@ -108,26 +111,38 @@ static inline struct lanes8_vec lanes8_cross(struct lanes8_vec a, struct lanes8_
     return (struct lanes8_vec){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/* Eight rows of two vectors each, x y z 0 x y z 0, turned: the first ones and the second ones. */
-static inline void lanes8_turn(const lanes8 in[8], struct lanes8_vec *first, struct lanes8_vec *second)
+/* The turned table: number i of every row becomes row i. */
+static inline void lanes8_turn(const lanes8 in[8], lanes8 out[8])
 {
-    lanes8 x[2], y[2], z[2];
+    lanes8 half[2][4];
     for (int i = 0; i < 2; i++) {
         const lanes8 *r = in + 4 * i;
         const lanes8 low01 = __builtin_shufflevector(r[0], r[1], 0, 8, 1, 9, 4, 12, 5, 13),
                      low23 = __builtin_shufflevector(r[2], r[3], 0, 8, 1, 9, 4, 12, 5, 13),
                      high01 = __builtin_shufflevector(r[0], r[1], 2, 10, 3, 11, 6, 14, 7, 15),
                      high23 = __builtin_shufflevector(r[2], r[3], 2, 10, 3, 11, 6, 14, 7, 15);
-        x[i] = __builtin_shufflevector(low01, low23, 0, 1, 8, 9, 4, 5, 12, 13);
-        y[i] = __builtin_shufflevector(low01, low23, 2, 3, 10, 11, 6, 7, 14, 15);
-        z[i] = __builtin_shufflevector(high01, high23, 0, 1, 8, 9, 4, 5, 12, 13);
+        half[i][0] = __builtin_shufflevector(low01, low23, 0, 1, 8, 9, 4, 5, 12, 13);
+        half[i][1] = __builtin_shufflevector(low01, low23, 2, 3, 10, 11, 6, 7, 14, 15);
+        half[i][2] = __builtin_shufflevector(high01, high23, 0, 1, 8, 9, 4, 5, 12, 13);
+        half[i][3] = __builtin_shufflevector(high01, high23, 2, 3, 10, 11, 6, 7, 14, 15);
     }
-    first->x = __builtin_shufflevector(x[0], x[1], 0, 1, 2, 3, 8, 9, 10, 11);
-    first->y = __builtin_shufflevector(y[0], y[1], 0, 1, 2, 3, 8, 9, 10, 11);
-    first->z = __builtin_shufflevector(z[0], z[1], 0, 1, 2, 3, 8, 9, 10, 11);
-    second->x = __builtin_shufflevector(x[0], x[1], 4, 5, 6, 7, 12, 13, 14, 15);
-    second->y = __builtin_shufflevector(y[0], y[1], 4, 5, 6, 7, 12, 13, 14, 15);
-    second->z = __builtin_shufflevector(z[0], z[1], 4, 5, 6, 7, 12, 13, 14, 15);
+    for (int k = 0; k < 4; k++) {
+        out[k] = __builtin_shufflevector(half[0][k], half[1][k], 0, 1, 2, 3, 8, 9, 10, 11);
+        out[k + 4] = __builtin_shufflevector(half[0][k], half[1][k], 4, 5, 6, 7, 12, 13, 14, 15);
+    }
+}
+
+/* from[index], of eight indices below 2^31. */
+static inline lanes8 lanes8_pick(const float *from, lanes8_mask index)
+{
+#ifdef __AVX2__
+    return (lanes8)_mm256_i32gather_ps(from, (__m256i)index, sizeof *from);
+#else
+    lanes8 picked;
+    for (int i = 0; i < 8; i++)
+        picked[i] = from[index[i]];
+    return picked;
+#endif
 }
 
 #endif
