@@ -262,4 +262,4 @@ static struct bending_sums sums(const struct sim *sim, const struct sim_balloon 
 }
 
 extern const struct bending_kernels SIM_BENDING;
-const struct bending_kernels SIM_BENDING = {triangle_normals, hinge_pulls, forces, product, sums};
+const struct bending_kernels SIM_BENDING = {chunk_triangles, hinge_pulls, forces, product, sums};

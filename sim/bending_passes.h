@@ -173,12 +173,6 @@ INLINE struct pull_work pull_work_of(const struct sim *sim, const struct sim_bal
                               .pull = sim->hinge_pull};
 }
 
-INLINE row unit_of(row normal)
-{
-    const lane_mask three = {-1, -1, -1, 0};
-    return (row)((lane_mask)normal & three);
-}
-
 /* Of one triangle, the force on those of its points that are the part's. Corner k is across from side k + 1. */
 INLINE void add_to_own_corners(const struct pull_work *w, const struct sim_part *part, size_t t)
 {

@@ -234,12 +234,6 @@ struct pass {
     bool crushed;
 };
 
-static void normals_of_part(struct sim *sim, const struct sim_part *part, void *context)
-{
-    if (part->balloon == ((struct pass *)context)->balloon)
-        part->balloon->bending->kernels->triangles(sim, part);
-}
-
 static void pulls_of_part(struct sim *sim, const struct sim_part *part, void *context)
 {
     const struct pass *pass = context;
@@ -254,12 +248,12 @@ static void forces_of_part(struct sim *sim, const struct sim_part *part, void *c
         part->balloon->bending->kernels->forces(sim, part, pass->crushed);
 }
 
+/* The first pass is done, with the normals (kernels.h). */
 static void apply(struct sim *sim, struct sim_balloon *b)
 {
     struct pass pass = {b, false};
     if (!b->bending)
         return;
-    sim_each_part(sim, normals_of_part, &pass);
     for (size_t i = 0; i < sim->part_count; i++)
         pass.crushed |= sim->parts[i].balloon == b && b->bending->passes.crushed[i];
     sim_each_part(sim, pulls_of_part, &pass);

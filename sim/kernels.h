@@ -42,17 +42,9 @@ static inline bool kernels_skin_is_due(const struct sim *sim, const struct sim_p
            (sim->drag && next < part->chunks + part->chunk_count && next->point_begin < now->clear_end);
 }
 
-/* Parts 3 and 4 for a chunk: what the pressure does, or what it will act on. */
-static inline void kernels_press(const struct sim_kernels *k, struct sim *sim, const struct sim_part *part,
-                                 const struct sim_chunk *chunk)
-{
-    if (part->balloon->by_area) {
-        k->triangle_areas(sim, part, chunk);
-    } else {
-        k->triangle_normals(sim, part, chunk);
-        k->pressure_forces(sim, part, chunk);
-    }
-}
+/* Parts 3 and 4 for a chunk: what the pressure does, or what it will act on; and what bending wants of the triangles. */
+void kernels_press(const struct sim_kernels *k, struct sim *sim, const struct sim_part *part,
+                   const struct sim_chunk *chunk);
 
 /* The table for this machine. */
 const struct sim_kernels *kernels_find(void);

@@ -282,6 +282,31 @@ static void torn_hinges_are_equal_for_any_number_of_threads(void **state)
     close_balloon(&b);
 }
 
+/* The step's normals are added up on the way through the triangles that hinges need too: the same to the bit, in whole fours and in
+ * others. */
+static void normals_are_what_they_are_without_hinges(void **state)
+{
+    (void)state;
+    static const char *const pressures[] = {"balloons[0].pressure_on=points",
+                                            "balloons[0].pressure_on=areas"};
+    static const char *const hinges[] = {"balloons[0].bending.stiffness=0", "balloons[0].bending.stiffness=2",
+                                         "balloons[0].bending.damping=0.02"};
+    for (int i = 0; i < 6; i++) {
+        struct balloon b[2];
+        for (int k = 0; k < 2; k++) {
+            uint64_t random = 3;
+            open_balloon(&b[k], 3, HINGES(pressures[i / 3], k == 0 ? hinges[0] : hinges[i % 3]));
+            fill(b[k].sim.position, b[k].sim.point_count, 0.1, &random);
+            for (uint32_t t = 7; t < b[k].sim.triangle_count; t += 29)
+                b[k].sim.triangle_active[t] = 0;
+            sim_forces(&b[k].sim);
+        }
+        assert_memory_equal(b[0].sim.normal, b[1].sim.normal, b[0].sim.point_count * sizeof *b[0].sim.normal);
+        close_balloon(&b[0]);
+        close_balloon(&b[1]);
+    }
+}
+
 /* Crumpled, crushed and torn: what is compiled for this machine gives what is compiled for any gives. */
 static void all_sets_of_instructions_give_the_same_bits(void **state)
 {
@@ -371,6 +396,7 @@ int main(void)
         cmocka_unit_test(the_guards_bound_holds_for_hinges),
         cmocka_unit_test(a_block_of_no_stiffness_changes_no_bit),
         cmocka_unit_test(torn_hinges_are_equal_for_any_number_of_threads),
+        cmocka_unit_test(normals_are_what_they_are_without_hinges),
         cmocka_unit_test(all_sets_of_instructions_give_the_same_bits),
         cmocka_unit_test(a_cut_ends_its_hinge),
         cmocka_unit_test(the_ledger_balances),
