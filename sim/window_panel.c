@@ -16,10 +16,12 @@ enum {
     KNOB_WIDTH = 6,
     KNOB_HEIGHT = 12,
     PLOT_WIDTH = 190,
-    PLOT_HEIGHT = 110,
-    PLOT_TITLE = 16,
+    PLOT_HEIGHT = 120,
+    PLOT_HEAD = 28,     /* above the curve: title and a number */
+    PLOT_FOOT = 14,     /* below: numbers */
     PLOT_SAMPLES = 400, /* frames that are plotted of however many */
     LEGEND_WIDTH = 14,
+    LEGEND_NUMBER = 28, /* how wide its numbers are, with some room */
     LEGEND_HEIGHT = 120,
     BOXES_MAX = 8192,
 };
@@ -229,9 +231,9 @@ static void add_plot(struct app *app)
             continue;
         const int at[2] = {
             plot.x + (int)((marks->stretch - stretch[0]) / (stretch[1] - stretch[0]) * (plot.width - 2)),
-            plot.y + plot.height - 2 -
+            plot.y + plot.height - PLOT_FOOT -
                 (int)((marks->pressure - pressure[0]) / (pressure[1] - pressure[0]) *
-                      (plot.height - PLOT_TITLE))};
+                      (plot.height - PLOT_HEAD - PLOT_FOOT))};
         add_segment(app, before[0] < 0 ? at : before, at, i <= app->live.shown ? yellow : blue);
         memcpy(before, at, sizeof before);
         if (i <= app->live.shown)
@@ -244,6 +246,9 @@ static void add_plot(struct app *app)
 static void add_legend(struct app *app)
 {
     const struct panel_box legend = app_legend(app);
+    const int beside = LEGEND_NUMBER + MARGIN / 2;
+    add(app, legend.x - beside, legend.y - ROW - 1, beside + legend.width + MARGIN / 2,
+        legend.height + ROW + MARGIN, dark, 0.72f);
     for (int i = 0; i < WINDOW_BANDS; i++) {
         const int top = legend.y + legend.height * (WINDOW_BANDS - 1 - i) / WINDOW_BANDS;
         const int bottom = legend.y + legend.height * (WINDOW_BANDS - i) / WINDOW_BANDS;
