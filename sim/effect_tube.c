@@ -5,11 +5,10 @@
  * Near even pressures that law would ask for ever shorter steps: the flow goes by the root of the difference d. There a flow is slow and laminar,
  * and goes by d itself (Poiseuille); here from a hundredth of the larger gauge pressure downwards, or 1e-4 of the pressure. So the pressures
  * approach each other at a finite rate, dN/dd (1/C1 + 1/C2) with C = dN/dp of each balloon, and the guard splits steps that cannot follow
- * it. Where it may not, flow is held back so that it never turns round within a step.
+ * it. Where it may not, flow is held back so that it never turns round within a step, and that is told.
  */
-#include "sim/effect_gas.h"
 #include "sim/effects.h"
-#include "sim/gas_law.h"
+#include "sim/gas.h"
 #include "sim/guard.h"
 
 static bool wanted(const struct scene_balloon *balloon)
@@ -57,11 +56,25 @@ static void apply(struct sim *sim, struct sim_balloon *b)
     const bool out = here.pressure > there.pressure;
     const struct pair pair = {b->scene, out ? &here : &there, out ? &there : &here, b->scene->gas.ambient};
     const double difference = pair.from->pressure - pair.into->pressure;
+    b->gas->tube_held = false;
     if (!(difference > 0) || !(pair.from->density > 0))
         return;
-    const double rate = fmin(flow(&pair, difference), most_in_a_step(sim, &pair, difference));
+    const double whole = flow(&pair, difference), most = most_in_a_step(sim, &pair, difference),
+                 rate = fmin(whole, most);
+    b->gas->tube_held = whole > most;
     gas_stream(sim, b, out ? -rate : rate, pair.from->warmth);
     gas_stream(sim, to, out ? rate : -rate, pair.from->warmth);
+}
+
+static void after(struct sim *sim, struct sim_balloon *b)
+{
+    if (!b->gas->tube_held || b->gas->tube_told)
+        return;
+    b->gas->tube_told = true;
+    sim_tell(
+        sim, b, "tube",
+        "lets less through than it would: in a step of this length the pressures would change places; shorter "
+        "steps follow it, or time.guard = \"substep\"");
 }
 
 /* Steps that hold no flow back, with half of them to spare for what changes until the gas is asked again. */
@@ -83,5 +96,6 @@ const struct effect effect_tube = {.name = "tube",
                                    .phase = EFFECT_FORCES,
                                    .wanted = wanted,
                                    .apply = apply,
+                                   .after = after,
                                    .bound = bound,
                                    .source = "Saint-Venant & Wantzel 1839; Poiseuille 1840"};

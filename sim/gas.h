@@ -32,6 +32,9 @@ struct gas {
     /* By the last sim_forces(); the thrust beyond the missing pressure on a unit of a hole's area, and that of the neck. */
     double volume, pressure, rim_thrust, neck_thrust;
 
+    bool tube_held,
+        tube_told; /* what flows in its tube was held back by them (effect_tube.c); and that was told */
+
     struct gas_memory {
         double bound_volume, bound_pressure, bound_gauge; /* for which the guard's bound was found */
         uint64_t gone, let_go,

@@ -168,6 +168,30 @@ static void the_guard_splits_what_a_tube_is_too_fast_for(void **state)
     assert_near(coarse, fine, 2e-4 * fine);
 }
 
+/* Where it may not, less flows than would, and that is told: once, and by who can follow the flow never. */
+static void what_is_held_back_is_told_once(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *guard, *step;
+        size_t told;
+    } cases[] = {{"off", "0.01", 1}, {"off", "0.0005", 0}, {"substep", "0.01", 0}};
+    for (int i = 0; i < 3; i++) {
+        struct pair pair;
+        char guard[32], step[32];
+        size_t told = 0;
+        snprintf(guard, sizeof guard, "time.guard=%s", cases[i].guard);
+        snprintf(step, sizeof step, "time.step=%s", cases[i].step);
+        open_pair(&pair, 1, SETTINGS("balloons[0].tube.area=1", guard, step));
+        run_to(&pair, 0.5);
+        for (size_t k = 0; k < pair.sim.news_count; k++)
+            told += !strcmp(pair.sim.news[k].effect, "tube") &&
+                    strstr(pair.sim.news[k].text, "lets less through");
+        assert_int_equal(told, cases[i].told);
+        close_pair(&pair);
+    }
+}
+
 /* Where the other balloon has burst, the tube ends in the air: what is joined to it empties, and nothing is lost from the books. */
 static void a_tube_to_what_has_burst_ends_in_the_air(void **state)
 {
@@ -194,6 +218,7 @@ int main(void)
         cmocka_unit_test(what_flows_converges_with_the_step),
         cmocka_unit_test(a_tube_to_what_has_burst_ends_in_the_air),
         cmocka_unit_test(the_guard_splits_what_a_tube_is_too_fast_for),
+        cmocka_unit_test(what_is_held_back_is_told_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
