@@ -36,38 +36,54 @@ static bool shares_point(enum ccd_kind kind, const uint32_t p[4])
     return p[0] == p[2] || p[0] == p[3] || p[1] == p[2] || p[1] == p[3];
 }
 
-static double reach_of(const struct contact *c, const uint32_t *p, int count)
+static inline float larger(float a, float b)
 {
-    float reach = 0;
-    for (int i = 0; i < count; i++)
-        reach = c->reach[p[i]] > reach ? c->reach[p[i]] : reach;
-    return (double)reach;
+    return a > b ? a : b;
+}
+
+/* How far the features of a pair may come nearer to each other than their lines do. */
+static inline float reach_of(const struct contact *c, const uint32_t *p, enum ccd_kind kind)
+{
+    const float *r = c->reach;
+    const float high = larger(r[p[2]], r[p[3]]);
+    return kind == CCD_EDGES ? larger(r[p[0]], r[p[1]]) + high : r[p[0]] + larger(r[p[1]], high);
+}
+
+/* The pairs that can touch, by how far they are apart: `kept` of all on trial. */
+static void list_kept(const struct contact_finder *f, struct contact_taken *taken, enum ccd_kind kind,
+                      float (*apart)[2], const uint32_t *kept, uint32_t count)
+{
+    struct contact *c = f->contact;
+    const uint32_t begin = __atomic_fetch_add(&c->pair_count, count, __ATOMIC_RELAXED);
+    for (uint32_t i = 0; i < count && begin + i < c->pair_capacity; i++) {
+        const uint32_t *p = taken->point[kind][kept[i]];
+        const double first = (double)apart[kept[i]][0],
+                     pace = (first - (double)apart[kept[i]][1]) / (1 - f->gone),
+                     at_first = first + f->gone * pace;
+        c->awake[begin + i] = 1;
+        c->pairs[begin + i] = (struct contact_pair){{p[0], p[1], p[2], p[3]},
+                                                    kind,
+                                                    (float)(at_first - 1e-6 * (fabs(at_first) + fabs(pace))),
+                                                    (float)pace};
+    }
 }
 
 /* Of those that are taken the pairs that can touch come onto the list. */
 static void list_taken(const struct contact_finder *f, struct contact_taken *taken, enum ccd_kind kind)
 {
-    struct contact *c = f->contact;
-    const struct contact_flock flock = {kind, c->lines, (float)f->gone};
-    const int first = kind == CCD_POINT_TRIANGLE ? 1 : 2;
+    const struct contact *c = f->contact;
+    const struct contact_flock flock = {kind, f->contact->lines, (float)f->gone};
+    const float thickness = (float)c->thickness;
     float apart[CONTACT_TAKEN][2];
+    uint32_t kept[CONTACT_TAKEN], count = 0;
     c->tree.kernels->apart(&flock, taken->point[kind], taken->count[kind], apart);
     for (uint32_t i = 0; i < taken->count[kind]; i++) {
-        const uint32_t *p = taken->point[kind][i];
-        const double room = reach_of(c, p, first) + reach_of(c, p + first, 4 - first) + c->thickness;
-        const double begin = (double)apart[i][0], end = (double)apart[i][1];
-        if (fmin(begin, end) > room)
-            continue;
-        const double pace = (begin - end) / (1 - f->gone), at_first = begin + f->gone * pace;
-        const uint32_t place = __atomic_fetch_add(&c->pair_count, 1, __ATOMIC_RELAXED);
-        if (place >= c->pair_capacity)
-            continue;
-        c->awake[place] = 1;
-        c->pairs[place] = (struct contact_pair){{p[0], p[1], p[2], p[3]},
-                                                kind,
-                                                (float)(at_first - 1e-6 * (fabs(at_first) + fabs(pace))),
-                                                (float)pace};
+        const float room = 1.000001F *
+                           (reach_of(c, taken->point[kind][i], kind) + thickness); /* rounded up */
+        kept[count] = i;
+        count += !(apart[i][0] > room && apart[i][1] > room);
     }
+    list_kept(f, taken, kind, apart, kept, count);
     taken->count[kind] = 0;
 }
 
