@@ -28,9 +28,11 @@ static enum status check_surface(const char *path, const struct mesh *mesh, cons
     if (!wrong)
         return STATUS_OK;
     const double *a = mesh->position[edge[0]], *b = mesh->position[edge[1]];
-    return error_set(err, STATUS_INPUT,
-                     "%s: the edge from (%g, %g, %g) to (%g, %g, %g) %s, as %zu edges do; %s", path, a[0],
-                     a[1], a[2], b[0], b[1], b[2], wrong, count, right);
+    char others[40] = "";
+    if (count > 1)
+        snprintf(others, sizeof others, ", as %zu edges do", count);
+    return error_set(err, STATUS_INPUT, "%s: the edge from (%g, %g, %g) to (%g, %g, %g) %s%s; %s", path, a[0],
+                     a[1], a[2], b[0], b[1], b[2], wrong, others, right);
 }
 
 static void turn_inside_out(struct mesh *mesh)
