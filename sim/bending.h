@@ -59,6 +59,7 @@ struct bending {
     double *range;  /* [part_count] largest slope over that at rest, by the last forces. Owned. */
     double bounded; /* what the guard takes that for */
     double damping; /* s */
+    bool done;      /* the third pass, with the second: some are crushed */
     struct bending_passes passes;
     const struct bending_kernels *kernels;
 };

@@ -12,6 +12,7 @@
 struct sim;
 struct sim_balloon;
 struct sim_block;
+struct sim_part;
 struct guard_rows;
 
 /* When an effect's hook runs. */
@@ -36,6 +37,9 @@ struct effect {
     enum status (*open)(struct sim *sim, struct sim_balloon *balloon, struct error *err);
     void (*close)(struct sim *sim, struct sim_balloon *balloon);
     void (*apply)(struct sim *sim, struct sim_balloon *balloon); /* NULL: nothing that a kernel does not do */
+    /* EFFECT_FORCES, after apply: adds to the forces on a part's points, on that part's worker, and looks at nothing of other parts that moves:
+     * their points may be on their way already. Once for each hook. NULL: nothing. */
+    void (*finish)(struct sim *sim, const struct sim_balloon *balloon, const struct sim_part *part);
     /* EFFECT_MOVED: corrects sim->position and velocity after a step from sim->before; says so by sim->changed. */
     enum status (*settle)(struct sim *sim, struct error *err);
     /* EFFECT_FORCES: at the end of each accepted step too. NULL: nothing. */
@@ -79,6 +83,10 @@ enum status effects_resolve(struct sim *sim, struct error *err);
 void effects_close(struct sim *sim);
 void effects_run(struct sim *sim, enum effect_phase phase);
 enum status effects_settle(struct sim *sim, struct error *err); /* EFFECT_MOVED */
+
+/* EFFECT_FORCES in two goes: all but what is left to finish, by hooks from the returned one on; and that, of one part. */
+size_t effects_begin_forces(struct sim *sim);
+void effects_finish_forces(struct sim *sim, const struct sim_part *part, size_t first);
 
 /* Of all effects together (struct effect): whether all can go on, their blocks, the energy that they hold, their powers, which are added,
  * and what goes with an edge or a triangle. */

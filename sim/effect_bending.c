@@ -241,11 +241,10 @@ static void pulls_of_part(struct sim *sim, const struct sim_part *part, void *co
         part->balloon->bending->kernels->hinges(sim, part, pass->crushed);
 }
 
-static void forces_of_part(struct sim *sim, const struct sim_part *part, void *context)
+static void crushed_of_part(struct sim *sim, const struct sim_part *part, void *context)
 {
-    const struct pass *pass = context;
-    if (part->balloon == pass->balloon)
-        part->balloon->bending->kernels->forces(sim, part, pass->crushed);
+    if (part->balloon == ((struct pass *)context)->balloon)
+        part->balloon->bending->kernels->forces(sim, part, true);
 }
 
 /* The first pass is done, with the normals (kernels.h). */
@@ -257,7 +256,16 @@ static void apply(struct sim *sim, struct sim_balloon *b)
     for (size_t i = 0; i < sim->part_count; i++)
         pass.crushed |= sim->parts[i].balloon == b && b->bending->passes.crushed[i];
     sim_each_part(sim, pulls_of_part, &pass);
-    sim_each_part(sim, forces_of_part, &pass);
+    b->bending->done = pass.crushed;
+    if (pass.crushed)
+        sim_each_part(sim, crushed_of_part, &pass);
+}
+
+/* Goes by tables of the passes alone, where nothing is crushed. */
+static void finish(struct sim *sim, const struct sim_balloon *b, const struct sim_part *part)
+{
+    if (part->balloon == b && b->bending && !b->bending->done)
+        b->bending->kernels->forces(sim, part, false);
 }
 
 struct job {
@@ -364,6 +372,7 @@ const struct effect effect_bending = {.name = "bending",
                                       .open = open,
                                       .close = close,
                                       .apply = apply,
+                                      .finish = finish,
                                       .after = watch,
                                       .blocks = blocks,
                                       .product = product,

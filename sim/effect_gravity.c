@@ -8,24 +8,16 @@ static bool wanted(const struct scene *scene)
     return scene->gravity.on;
 }
 
-static void fall(struct sim *sim, const struct sim_part *part, void *context)
+static void fall(struct sim *sim, const struct sim_balloon *balloon, const struct sim_part *part)
 {
-    const double *a = context;
+    (void)balloon;
+    const double *a = sim->scene->gravity.acceleration;
     const double x = a[0], y = a[1], z = a[2];
     for (uint32_t p = part->point_begin; p < part->point_end; p++) {
         sim->force[p][0] += sim->mass[p] * x;
         sim->force[p][1] += sim->mass[p] * y;
         sim->force[p][2] += sim->mass[p] * z;
     }
-}
-
-static void apply(struct sim *sim, struct sim_balloon *balloon)
-{
-    (void)balloon;
-    double a[3];
-    for (int i = 0; i < 3; i++)
-        a[i] = sim->scene->gravity.acceleration[i];
-    sim_each_part(sim, fall, a);
 }
 
 static void bound(const struct sim *sim, const struct sim_balloon *balloon, const struct guard_rows *rows)
@@ -48,7 +40,7 @@ static double energy(struct sim *sim, struct sim_balloon *balloon)
 const struct effect effect_gravity = {.name = "gravity",
                                       .phase = EFFECT_FORCES,
                                       .scene_wanted = wanted,
-                                      .apply = apply,
+                                      .finish = fall,
                                       .bound = bound,
                                       .energy = energy,
                                       .source = "Newton 1687"};

@@ -99,11 +99,54 @@ void effects_close(struct sim *sim)
     }
 }
 
-static void apply(struct sim *sim, enum effect_phase phase)
+/* What hooks are left to finish, from the first to before the last. */
+struct unfinished {
+    size_t first, last;
+};
+
+static void finish_part(struct sim *sim, const struct sim_part *part, void *context)
 {
-    for (size_t i = 0; i < sim->hook_count[phase]; i++)
-        if (sim->hooks[phase][i].effect->apply)
-            sim->hooks[phase][i].effect->apply(sim, sim->hooks[phase][i].balloon);
+    const struct unfinished *left = context;
+    for (size_t i = left->first; i < left->last; i++) {
+        const struct effect_hook *hook = &sim->hooks[EFFECT_FORCES][i];
+        if (hook->effect->finish)
+            hook->effect->finish(sim, hook->balloon, part);
+    }
+}
+
+static void finish(struct sim *sim, struct unfinished left)
+{
+    bool any = false;
+    for (size_t i = left.first; i < left.last; i++)
+        any |= sim->hooks[EFFECT_FORCES][i].effect->finish != NULL;
+    if (any)
+        sim_each_part(sim, finish_part, &left);
+}
+
+/* Runs the hooks of a phase; whatever they leave to finish is done before the next one that applies anything. Returns the first that is
+ * left. */
+static size_t apply(struct sim *sim, enum effect_phase phase)
+{
+    size_t first = 0;
+    for (size_t i = 0; i < sim->hook_count[phase]; i++) {
+        if (!sim->hooks[phase][i].effect->apply)
+            continue;
+        if (phase == EFFECT_FORCES)
+            finish(sim, (struct unfinished){first, i});
+        first = i;
+        sim->hooks[phase][i].effect->apply(sim, sim->hooks[phase][i].balloon);
+    }
+    return first;
+}
+
+size_t effects_begin_forces(struct sim *sim)
+{
+    return apply(sim, EFFECT_FORCES);
+}
+
+void effects_finish_forces(struct sim *sim, const struct sim_part *part, size_t first)
+{
+    finish_part(sim, part, &(struct unfinished){first, sim->hook_count[EFFECT_FORCES]});
 }
 
 static void after_forces(struct sim *sim)
@@ -130,7 +173,9 @@ void effects_run(struct sim *sim, enum effect_phase phase)
 {
     const bool counted = sim->ledger.on && phase == EFFECT_AFTER_STEP;
     const double held = counted ? held_as_a_whole(sim) : 0;
-    apply(sim, phase);
+    const size_t first = apply(sim, phase);
+    if (phase == EFFECT_FORCES)
+        finish(sim, (struct unfinished){first, sim->hook_count[phase]});
     if (phase == EFFECT_AFTER_STEP)
         after_forces(sim);
     if (counted)

@@ -61,20 +61,37 @@ void sim_forces(struct sim *sim)
 static bool are_complete(const struct sim *sim)
 {
     for (size_t i = 0; i < sim->hook_count[EFFECT_FORCES]; i++)
-        if (sim->hooks[EFFECT_FORCES][i].effect->apply)
+        if (sim->hooks[EFFECT_FORCES][i].effect->apply || sim->hooks[EFFECT_FORCES][i].effect->finish)
             return false;
-    return !sim->ledger.on;
+    return true;
+}
+
+/* The end of a sweep, where effects have begun to add to the forces. */
+struct rest {
+    size_t first; /* that is left to finish */
+    struct sim_move *move;
+};
+
+static void finish_and_sweep(struct sim *sim, const struct sim_part *part, void *context)
+{
+    const struct rest *rest = context;
+    effects_finish_forces(sim, part, rest->first);
+    sweep_part(sim, part, rest->move);
 }
 
 void sim_forces_then(struct sim *sim, struct sim_move *move)
 {
-    if (are_complete(sim)) {
+    if (sim->ledger.on) {
+        sim_forces(sim);
+        sim_each_part(sim, sweep_part, move);
+    } else if (are_complete(sim)) {
         sim->evaluations++;
         sim_each_part(sim, part_forces, move);
         sim_each_part(sim, sweep_border, move);
     } else {
-        sim_forces(sim);
-        sim_each_part(sim, sweep_part, move);
+        sim->evaluations++;
+        sim_each_part(sim, part_forces, NULL);
+        sim_each_part(sim, finish_and_sweep, &(struct rest){effects_begin_forces(sim), move});
     }
     sim->swept = true;
 }
