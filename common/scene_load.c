@@ -328,8 +328,8 @@ static enum status list_item(struct scene *scene, const struct scene_block *bloc
     const size_t count = *(const size_t *)((const char *)scene + list->count);
     if (index < 0 || (size_t)index > count)
         return error_set(err, STATUS_INPUT,
-                         "--set: %s has %zu entries; write %s[0] to %s[%zu], the last to add one",
-                         block->name, count, block->name, block->name, count);
+                         "--set: %s has %zu %s; write %s[0] to %s[%zu], the last to add one", block->name,
+                         count, count == 1 ? "entry" : "entries", block->name, block->name, count);
     if ((size_t)index == count)
         return add_item(scene, block, item, err);
     *item = item_of(scene, list, (size_t)index);

@@ -152,9 +152,9 @@ static void set_changes_any_key_by_its_path(void **state)
     assert_true(scene.balloons[0].rip.on);
     assert_near(scene.schedule[0].change[0].value, 0.5, 0);
 
-    assert_refused(scene_set(&scene, "balloons[2].pressure=12", &err), STATUS_INPUT, "balloons has 1 entries",
+    assert_refused(scene_set(&scene, "balloons[2].pressure=12", &err), STATUS_INPUT, "balloons has 1 entry;",
                    &err);
-    assert_refused(scene_set(&scene, "balloons.pressure=12", &err), STATUS_INPUT, "balloons has 1 entries",
+    assert_refused(scene_set(&scene, "balloons.pressure=12", &err), STATUS_INPUT, "balloons has 1 entry;",
                    &err);
     assert_refused(scene_set(&scene, "balloons[0].presure=12", &err), STATUS_INPUT, "did you mean `pressure`",
                    &err);
