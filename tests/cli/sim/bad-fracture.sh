@@ -32,4 +32,4 @@ ply m.ply "$tetra_points
 -1 -1 -1" "$tetra_triangles
 0 1 4
 1 0 4"
-mesh 'has more than two triangles, as .* a balloon must be one surface'
+mesh 'has more than two triangles; a balloon must be one surface'
