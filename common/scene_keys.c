@@ -130,14 +130,21 @@ static const char *next_line(const char *text)
     return *text ? text + 1 : text;
 }
 
-/* The line of this key in another text. */
-static struct line find_key(const char *text, struct line key)
+/* The line of this key in another text. The search begins at `from`, a line of it, and goes round; it leaves `from` after what it
+ * finds, since keys come in one order: with many balloons, to begin at the first would take as long as all their pairs. */
+static struct line find_key(const char *text, const char **from, struct line key)
 {
-    for (; *text; text = next_line(text)) {
-        const struct line line = line_at(text);
-        if (line.key_length == key.key_length && !memcmp(line.text, key.text, (size_t)key.key_length))
+    const char *at = *from;
+    do {
+        const struct line line = line_at(at);
+        at = next_line(at);
+        if (!*at)
+            at = text;
+        if (line.key_length == key.key_length && !memcmp(line.text, key.text, (size_t)key.key_length)) {
+            *from = at;
             return line;
-    }
+        }
+    } while (at != *from);
     return (struct line){0};
 }
 
@@ -153,8 +160,9 @@ static int quoted(int length) /* a profile may be long */
 
 bool scene_keys_differ(const char *was, const char *is, char *text, size_t size)
 {
+    const char *from = was;
     for (const char *at = is; *at; at = next_line(at)) {
-        const struct line now = line_at(at), then = find_key(was, now);
+        const struct line now = line_at(at), then = find_key(was, &from, now);
         if (then.text && same_value(now, then))
             continue;
         const int length = snprintf(text, size, "%.*s is %.*s, and was ", quoted(now.key_length), now.text,
@@ -164,9 +172,10 @@ bool scene_keys_differ(const char *was, const char *is, char *text, size_t size)
                      then.text ? then.value : "not there");
         return true;
     }
+    from = is;
     for (const char *at = was; *at; at = next_line(at)) {
         const struct line then = line_at(at);
-        if (find_key(is, then).text)
+        if (find_key(is, &from, then).text)
             continue;
         snprintf(text, size, "%.*s was %.*s, and is not there any more", quoted(then.key_length), then.text,
                  quoted(then.value_length), then.value);
