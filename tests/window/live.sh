@@ -79,4 +79,10 @@ log_has()
         END { exit !($2) }" live.tsv || fail "$1"
 }
 
+# A picture's header holds its sides as the bytes of whole numbers: ISO 15948, 11.2.2.
+is_picture() # FILE WIDTH HEIGHT
+{
+    [ "$(od -An -tx1 -j16 -N8 "$1" | tr -d ' \n')" = "$(printf '%08x%08x' "$2" "$3")" ] || fail "$1: no picture of $2 x $3"
+}
+
 picture() { [ -z "${PICTURES:-}" ] || import -window "$window" "$PICTURES/$1.png"; }

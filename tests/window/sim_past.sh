@@ -36,4 +36,4 @@ if command -v ffprobe >/dev/null; then
     count=$(ffprobe -v error -count_frames -select_streams v:0 -show_entries stream=nb_read_frames -of csv=p=0 ball-1.mp4)
     [ "$count" -ge 3 ] || fail "the film has $count frames"
 fi
-case $(file -b ball-1.png) in *'PNG image data, 800 x 600'*) ;; *) fail "no picture of 800 x 600" ;; esac
+is_picture ball-1.png 800 600

@@ -29,4 +29,4 @@ press v
 [ "$(tail -n 1 buffers)" = right ] || fail "the key does not lead to two buffers"
 press p
 quit
-case $(file -b ball-2.png) in *'PNG image data, 800 x 600'*) ;; *) fail "no picture of 800 x 600" ;; esac
+is_picture ball-2.png 800 600
