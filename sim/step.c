@@ -28,7 +28,8 @@ static void skin_forces(struct sim *sim, const struct sim_part *part, const stru
         sim->kernels->edge_forces(sim, part, chunk);
 }
 
-/* Chunk by chunk, so that a large balloon goes through the caches once. */
+/* Chunk by chunk, so that a large balloon goes through the caches once. Where air drags, the skin's forces are ahead of the triangles that reach
+ * into them: kernels_skin_is_due(). */
 static void part_forces(struct sim *sim, const struct sim_part *part, void *move)
 {
     const struct sim_kernels *k = sim->kernels;

@@ -2,17 +2,10 @@
 #include "books.h"
 #include "common/vec3.h"
 #include "differences.h"
-#include "sim/bending_kernels.h"
+#include "hinges.h"
+#include "sim/bending.h"
 #include "sim/guard.h"
 #include "sim/jacobian.h"
-#include "sim/topology.h"
-
-/* A balloon of radius 1 that nothing but its hinges acts on. */
-#define HINGES(...)                                                                                   \
-    SETTINGS("balloons[0].radius=1", "balloons[0].pressure=0", "balloons[0].threshold=1e300",         \
-             "balloons[0].spring=0", "balloons[0].damping=0", "balloons[0].point_mass=1",             \
-             "balloons[0].bending.stiffness=1", "time.integrator=symplectic-euler", "time.step=0.01", \
-             "time.end=1e6" __VA_OPT__(, ) __VA_ARGS__)
 
 /* Out of shape and in motion, a few triangles and edges gone. */
 static void crumple(struct sim *sim, const double factor[3], double size)
@@ -21,13 +14,6 @@ static void crumple(struct sim *sim, const double factor[3], double size)
     for (uint32_t e = 0; e < sim->edge_count; e += 17)
         sim->edge_active[e] = 0;
 }
-
-/* Blown up; out of shape; crumpled, with folds past a right angle; flattened, with triangles that are crushed. */
-static const struct {
-    double factor[3], size;
-} shapes[] = {
-    {{1.7, 1.5, 1.6}, 0.02}, {{2.5, 0.8, 0.7}, 0.05}, {{0.8, 0.7, 0.9}, 0.25}, {{0.5, 0.4, 0.05}, 0.03}};
-enum { SHAPES = sizeof shapes / sizeof shapes[0] };
 
 static double energy_of(struct sim *sim)
 {
@@ -242,92 +228,6 @@ static void a_block_of_no_stiffness_changes_no_bit(void **state)
     close_balloon(&without);
 }
 
-/* Cuts from a point on around the balloon, each along a side of a triangle that is still joined. */
-static void cut_some(struct sim *sim, int cuts)
-{
-    struct sim_balloon *b = sim->balloons;
-    for (uint32_t t = 40; t < sim->triangle_count && cuts > 0; t += 1)
-        if (b->topology->neighbour[t][0] != MESH_NONE && topology_can_cut(sim, b)) {
-            topology_cut(sim, b, t, 0);
-            cuts--;
-        }
-}
-
-/* Through crumpling and cuts, to the bit. */
-static void torn_hinges_are_equal_for_any_number_of_threads(void **state)
-{
-    (void)state;
-    static const unsigned workers[] = {1, 2, 3, 7};
-    struct error err = {0};
-    struct balloon b;
-    open_balloon(&b, 3,
-                 HINGES("balloons[0].spring=1", "balloons[0].bending.damping=0.02", "time.step=0.02",
-                        "balloons[0].fracture.mode=tear", "balloons[0].fracture.strength=50"));
-    uint64_t first = 0;
-    for (size_t w = 0; w < sizeof workers / sizeof workers[0]; w++) {
-        struct sim sim;
-        uint64_t random = 8;
-        assert_ok(sim_open(&sim, &b.scene, &b.mesh, workers[w], &err), &err);
-        fill(sim.position, sim.balloons->point_end, 0.05, &random);
-        for (int s = 0; s < 10; s++) {
-            cut_some(&sim, 7);
-            assert_ok(sim_step(&sim, &err), &err);
-        }
-        assert_true(sim.broken >= 70);
-        if (w == 0)
-            first = sim_hash(&sim);
-        assert_true(sim_hash(&sim) == first);
-        sim_clear(&sim);
-    }
-    close_balloon(&b);
-}
-
-/* The step's normals are added up on the way through the triangles that hinges need too: the same to the bit, in whole fours and in
- * others. */
-static void normals_are_what_they_are_without_hinges(void **state)
-{
-    (void)state;
-    static const char *const pressures[] = {"balloons[0].pressure_on=points",
-                                            "balloons[0].pressure_on=areas"};
-    static const char *const hinges[] = {"balloons[0].bending.stiffness=0", "balloons[0].bending.stiffness=2",
-                                         "balloons[0].bending.damping=0.02"};
-    for (int i = 0; i < 6; i++) {
-        struct balloon b[2];
-        for (int k = 0; k < 2; k++) {
-            uint64_t random = 3;
-            open_balloon(&b[k], 3, HINGES(pressures[i / 3], k == 0 ? hinges[0] : hinges[i % 3]));
-            fill(b[k].sim.position, b[k].sim.point_count, 0.1, &random);
-            for (uint32_t t = 7; t < b[k].sim.triangle_count; t += 29)
-                b[k].sim.triangle_active[t] = 0;
-            sim_forces(&b[k].sim);
-        }
-        assert_memory_equal(b[0].sim.normal, b[1].sim.normal, b[0].sim.point_count * sizeof *b[0].sim.normal);
-        close_balloon(&b[0]);
-        close_balloon(&b[1]);
-    }
-}
-
-/* Crumpled, crushed and torn: what is compiled for this machine gives what is compiled for any gives. */
-static void all_sets_of_instructions_give_the_same_bits(void **state)
-{
-    (void)state;
-    extern const struct bending_kernels bending_plain;
-    for (int k = 0; k < 2 * SHAPES; k++) {
-        struct balloon b[2];
-        uint64_t hash[2];
-        for (int plain = 0; plain < 2; plain++) {
-            open_balloon(&b[plain], 3, k < SHAPES ? HINGES() : HINGES("balloons[0].bending.damping=0.02"));
-            deform(&b[plain].sim, shapes[k % SHAPES].factor, shapes[k % SHAPES].size);
-            if (plain)
-                b[plain].sim.balloons->bending->kernels = &bending_plain;
-            steps(&b[plain], 3);
-            hash[plain] = sim_hash(&b[plain].sim);
-            close_balloon(&b[plain]);
-        }
-        assert_true(hash[0] == hash[1]);
-    }
-}
-
 /* Forces and products after cuts are the slopes of what is left, and cut hinges are gone. */
 static void a_cut_ends_its_hinge(void **state)
 {
@@ -395,9 +295,6 @@ int main(void)
         cmocka_unit_test(the_bound_is_above_the_stiffest_mode),
         cmocka_unit_test(the_guards_bound_holds_for_hinges),
         cmocka_unit_test(a_block_of_no_stiffness_changes_no_bit),
-        cmocka_unit_test(torn_hinges_are_equal_for_any_number_of_threads),
-        cmocka_unit_test(normals_are_what_they_are_without_hinges),
-        cmocka_unit_test(all_sets_of_instructions_give_the_same_bits),
         cmocka_unit_test(a_cut_ends_its_hinge),
         cmocka_unit_test(the_ledger_balances),
     };
