@@ -17,12 +17,13 @@
 
 void command_begin(const char *program);
 
-/* argp_parse(), which ends the program with a message and exit code 2 where the command line is wrong; of an option that there is not the
- * message names the nearest that there is. Every option of `argp` has a long name. */
+/* argp_parse(), which ends the program with a message and exit code 2 where the command line is
+ * wrong; of an option that there is not the message names the nearest that there is. Every option of
+ * `argp` has a long name. */
 void command_parse(const struct argp *argp, int argc, char **argv, void *input);
 
-/* Memory that is freed stays with the program: the software renderer asks for the same tens of megabytes for each picture, and to
- * have them mapped anew takes longer than to sort its triangles. */
+/* Memory that is freed stays with the program: the software renderer asks for the same tens of megabytes for
+ * each picture, and to have them mapped anew takes longer than to sort its triangles. */
 void command_keep_memory(void);
 
 /* -q: notes and progress are not shown. */
@@ -45,17 +46,18 @@ double command_number(struct argp_state *state, const char *option, const char *
                       double most);
 long command_whole(struct argp_state *state, const char *option, const char *argument, long least, long most);
 
-/* An option's file must be named after what is written to it, "png" say, or have no extension, as devices have none; else argp's usage
- * error: exit 2. */
+/* An option's file must be named after what is written to it, "png" say, or have no extension, as devices
+ * have none; else argp's usage error: exit 2. */
 void command_extension(struct argp_state *state, const char *option, const char *argument,
                        const char *extension);
 
 /* A number that fills its whole text ("1e-3", not "1e-3x", not ""). nan and inf are refused. */
 bool number_parse(const char *text, double *value);
 
-/* A bar with rate and time left on stderr, at most ten times a second, and only where stderr is a terminal. Elsewhere work that
- * takes long is not done without a word: after 20 s, 40 s, 80 s ... of which 10 s were work, a note says how much is done and how
- * long the rest takes at that pace, unless that is less than a minute. The first update says where the work begins. */
+/* A bar with rate and time left on stderr, at most ten times a second, and only where stderr is a terminal.
+ * Elsewhere work that takes long is not done without a word: after 20 s, 40 s, 80 s ... of which 10 s were
+ * work, a note says how much is done and how long the rest takes at that pace, unless that is less than a
+ * minute. The first update says where the work begins. */
 void progress_begin(const char *what, const char *unit, double total);
 void progress_update(double done);
 void progress_end(void);

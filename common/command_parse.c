@@ -9,7 +9,8 @@
 static const struct argp_option argp_options[] = {
     {"help", '?', 0, 0, 0, 0}, {"usage", 0, 0, 0, 0, 0}, {"version", 'V', 0, 0, 0, 0}, {0}};
 
-/* The option whose name begins with this, or that has exactly this name; NULL: none. As for argp, the start of a name will do. */
+/* The option whose name begins with this, or that has exactly this name; NULL: none. As for argp, the
+ * start of a name will do. */
 static const struct argp_option *find_name(const struct argp_option *options, const char *name, size_t length)
 {
     const struct argp_option *found = NULL;

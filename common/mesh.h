@@ -55,9 +55,10 @@ enum status mesh_from_soup(const double (*corner)[3], size_t triangle_count, str
  * past 2^32 / 3 triangles. */
 enum status mesh_connect(struct mesh *mesh, struct error *err);
 
-/* Renumbers the points of a connected mesh by a walk in breadth, and the triangles by their lowest point, so that what is
- * near in space is near in memory: a step over a large mesh in random order takes several times as long. Corners keep their
- * order; the mesh is connected anew. O(n). Errors: STATUS_NO_MEMORY; the mesh is then as it was, or has no edges. */
+/* Renumbers the points of a connected mesh by a walk in breadth, and the triangles by their lowest point, so
+ * that what is near in space is near in memory: a step over a large mesh in random order takes several times
+ * as long. Corners keep their order; the mesh is connected anew. O(n). Errors: STATUS_NO_MEMORY; the mesh is
+ * then as it was, or has no edges. */
 enum status mesh_order(struct mesh *mesh, struct error *err);
 
 /* What is unusual about a mesh, and what mesh_repair() did about it. */
@@ -92,20 +93,20 @@ enum status mesh_repair(struct mesh *mesh, struct mesh_report *report, struct er
 const char *mesh_report_repairs(const struct mesh_report *report, char *text, size_t size);
 
 /* Reads .ply (ASCII, both binary byte orders), .stl (ASCII and binary) or .obj, by extension; polygons are
- * cut into fans. Many other formats (.gltf, .dae, .fbx, .3ds, .off, ...) are read through assimp, where that library is
- * installed (else STATUS_RESOURCE): all of the model's meshes where its scene puts them, without animation; about such
- * files nothing is promised that the library does not. *mesh, which must be {0} or a mesh, is replaced; after a failure it is as it was. Claimed
- * counts are checked against the file's size before memory is asked for. Loaded positions are finite and
- * indices in range; there is at least one triangle. Normals come from PLY only, of unit length, and only
- * where every point has one. Errors, which name the file and its line or element: STATUS_FILE,
- * STATUS_INPUT, STATUS_NO_MEMORY, STATUS_RANGE. */
+ * cut into fans. Many other formats (.gltf, .dae, .fbx, .3ds, .off, ...) are read through assimp, where that
+ * library is installed (else STATUS_RESOURCE): all of the model's meshes where its scene puts them, without
+ * animation; about such files nothing is promised that the library does not. *mesh, which must be {0} or a
+ * mesh, is replaced; after a failure it is as it was. Claimed counts are checked against the file's size
+ * before memory is asked for. Loaded positions are finite and indices in range; there is at least one
+ * triangle. Normals come from PLY only, of unit length, and only where every point has one. Errors, which
+ * name the file and its line or element: STATUS_FILE, STATUS_INPUT, STATUS_NO_MEMORY, STATUS_RANGE. */
 enum status mesh_load(const char *path, struct mesh *mesh, struct error *err);
 
 /* True when the name ends as those files do, upper or lower case. */
 bool mesh_is_file_name(const char *path);
 
-/* True when mesh_load() takes the file for a mesh: also by the extensions of formats that are left to assimp, whether it
- * is there or not. */
+/* True when mesh_load() takes the file for a mesh: also by the extensions of formats that are left to assimp,
+ * whether it is there or not. */
 bool mesh_is_readable_name(const char *path);
 
 /* Writes .ply (binary little endian, positions to the bit; with normals where the mesh has them), .stl
@@ -114,7 +115,8 @@ bool mesh_is_readable_name(const char *path);
  * STATUS_NO_MEMORY. */
 enum status mesh_save(const struct mesh *mesh, const char *path, struct error *err);
 
-/* A number of each point that goes into its file beside the place: float, or whole where there are no numbers. */
+/* A number of each point that goes into its file beside the place: float, or whole
+ * where there are no numbers. */
 struct mesh_value {
     const char *name;
     const float *number;  /* [point_count] or NULL, and */
@@ -122,9 +124,10 @@ struct mesh_value {
 };
 enum { MESH_VALUES_MAX = 8 };
 
-/* Writes a .ply as mesh_save() does, with up to MESH_VALUES_MAX further properties of its points (mesh_load() passes them over), or, by the
- * extension .vtp, the XML PolyData of VTK (its file formats, "VTK User's Guide", 11th edition, chapter 19): VTK's and ParaView's
- * readers know no properties of .ply but their own. Errors: STATUS_USAGE for another extension, STATUS_FILE. */
+/* Writes a .ply as mesh_save() does, with up to MESH_VALUES_MAX further properties of its points (mesh_load()
+ * passes them over), or, by the extension .vtp, the XML PolyData of VTK (its file formats, "VTK User's
+ * Guide", 11th edition, chapter 19): VTK's and ParaView's readers know no properties of .ply but their own.
+ * Errors: STATUS_USAGE for another extension, STATUS_FILE. */
 enum status mesh_save_values(const struct mesh *mesh, const struct mesh_value *values, size_t count,
                              const char *path, struct error *err);
 

@@ -1,6 +1,7 @@
 /*
- * Meshes in formats of other programs, by assimp (the Open Asset Import Library, https://github.com/assimp/assimp). The
- * library is large, so it is loaded only when such a file is, and need not be there otherwise.
+ * Meshes in formats of other programs, by assimp (the Open Asset Import Library,
+ * https://github.com/assimp/assimp). The library is large, so it is loaded only when such a file is, and need
+ * not be there otherwise.
  */
 #include "common/array.h"
 #include "common/mesh_files.h"
@@ -59,8 +60,8 @@ static enum status add_triangle(const struct aiMesh *part, const struct aiFace *
     return STATUS_OK;
 }
 
-/* All parts of the model as one mesh. Points and lines, which assimp has as faces too, are no skin. Points that it
- * holds apart for their colours and normals are at the same place to the bit. */
+/* All parts of the model as one mesh. Points and lines, which assimp has as faces too, are no skin. Points
+ * that it holds apart for their colours and normals are at the same place to the bit. */
 static enum status take_triangles(const struct aiScene *scene, const char *path, struct mesh *mesh,
                                   struct error *err)
 {

@@ -16,8 +16,8 @@ enum status mesh_read_stl(const struct bytes *bytes, const char *path, struct me
 enum status mesh_read_obj(const struct bytes *bytes, const char *path, struct mesh *mesh, struct error *err);
 
 /* Reads the file, and others that it names, through assimp, which knows it by its contents or extension.
- * *mesh, which must be {0} or a mesh, is replaced; after a failure it is as it was. Errors: STATUS_RESOURCE where assimp
- * is not there, STATUS_INPUT in its words, and those of mesh_from_soup(). */
+ * *mesh, which must be {0} or a mesh, is replaced; after a failure it is as it was. Errors: STATUS_RESOURCE
+ * where assimp is not there, STATUS_INPUT in its words, and those of mesh_from_soup(). */
 enum status mesh_read_foreign(const char *path, struct mesh *mesh, struct error *err);
 
 enum status mesh_write_ply(const struct mesh *mesh, FILE *stream, struct error *err);

@@ -32,7 +32,8 @@ bool mesh_is_file_name(const char *path)
     return format_of(path) < FORMATS;
 }
 
-/* Formats with meshes that assimp 5 reads (doc/Fileformats.md there), less those that other programs use for something else. */
+/* Formats with meshes that assimp 5 reads (doc/Fileformats.md there), less those that other programs
+ * use for something else. */
 static const char *const foreign_extensions[] = {
     "3ds", "3mf",  "ac",   "amf", "ase", "assbin", "b3d", "blend", "cob", "dae",     "dxf", "fbx",
     "glb", "gltf", "hmp",  "ifc", "lwo", "lws",    "lxo", "md2",   "md3", "md5mesh", "mdl", "ms3d",

@@ -1,4 +1,5 @@
-/* VTK's XML PolyData with its numbers behind the text: each array is its size in bytes, as 8 bytes, and its items. */
+/* VTK's XML PolyData with its numbers behind the text: each array is its size in bytes, as
+ * 8 bytes, and its items. */
 #include "common/mesh_files.h"
 #include "common/put.h"
 

@@ -86,8 +86,8 @@ static bool take_block(struct octree *tree, uint32_t *block)
     return true;
 }
 
-/* A block that was not in use before the tape began is nothing to go back to, and nobody writes there between an undo
- * and a redo: what it holds need not be noted. */
+/* A block that was not in use before the tape began is nothing to go back to, and nobody writes there between
+ * an undo and a redo: what it holds need not be noted. */
 bool octree_split(struct octree *tree, const struct octree_eight *children, octree_node *node)
 {
     uint32_t block;

@@ -55,13 +55,13 @@ struct octree {
 /* A cube of one material. Errors: STATUS_RANGE for a depth above OCTREE_DEPTH_MAX. */
 enum status octree_init(struct octree *tree, unsigned depth, unsigned material, struct error *err);
 void octree_clear(struct octree *tree);
-/* *to must be valid ({0} is); it is replaced, or left as it was when memory is not enough. A copy has no tape.
- */
+/* *to must be valid ({0} is); it is replaced, or left as it was when memory is not
+ * enough. A copy has no tape. */
 enum status octree_copy(struct octree *to, const struct octree *from, struct error *err);
 
-/* Makes *cut (valid; {0} is) the octree in 2^depth cells a side, or a copy where it has no more: a cell is full when any
- * part of it is, of the material of the first such part. O(nodes of the result). Errors: STATUS_NO_MEMORY; then *cut is
- * empty. */
+/* Makes *cut (valid; {0} is) the octree in 2^depth cells a side, or a copy where it has no more: a cell is
+ * full when any part of it is, of the material of the first such part. O(nodes of the result). Errors:
+ * STATUS_NO_MEMORY; then *cut is empty. */
 enum status octree_cut(const struct octree *tree, unsigned depth, struct octree *cut, struct error *err);
 
 /* All leaves, empty ones too: each split turns one leaf into eight. */
@@ -76,14 +76,14 @@ bool octree_equal(const struct octree *a, const struct octree *b);
 /* The material of one cell; 0 outside the cube. */
 unsigned octree_at(const struct octree *tree, int x, int y, int z);
 
-/* How a shape covers eight cubes: bit i speaks of cube i. A cube with neither bit is crossed, or not known: its
- * eight parts are asked about in turn. */
+/* How a shape covers eight cubes: bit i speaks of cube i. A cube with neither bit is crossed, or not known:
+ * its eight parts are asked about in turn. */
 struct octree_cover {
     unsigned inside, outside; /* wholly covered; not at all */
 };
 
-/* Says how a shape covers the eight cubes of this side that share the point corner + side; number x + 2 y + 4 z
- * lies at corner + side (x, y, z), in units of the octree's cube. When `cells` is true they cannot be split
+/* Says how a shape covers the eight cubes of this side that share the point corner + side; number x + 2 y + 4
+ * z lies at corner + side (x, y, z), in units of the octree's cube. When `cells` is true they cannot be split
  * further, and only `inside` counts: whether a cell's centre belongs to the shape. */
 typedef struct octree_cover octree_shape(const void *shape, const double corner[3], double side, bool cells);
 
@@ -96,14 +96,15 @@ enum status octree_apply(struct octree *tree, octree_shape *covers, const void *
 /* Sets one cell; the cell must lie in the cube. */
 enum status octree_set(struct octree *tree, int x, int y, int z, unsigned material, struct error *err);
 
-/* Fills what is empty and cannot be reached from outside, going from cell to cell across faces; *cells is how many
- * cells that were. (Material 0 fills nothing: it only counts.) Errors: STATUS_NO_MEMORY, with the tree as it was. */
+/* Fills what is empty and cannot be reached from outside, going from cell to cell across faces; *cells
+ * is how many cells that were. (Material 0 fills nothing: it only counts.) Errors: STATUS_NO_MEMORY,
+ * with the tree as it was. */
 enum status octree_fill_hollows(struct octree *tree, unsigned material, uint64_t *cells, struct error *err);
 
-/* Where a ray meets the sculpture: the first cell on its way that is not empty, of the finest, and its material; the
- * axis that the face it enters by is square to (0 x, 1 y, 2 z), and the way out of the cell along that axis (-1 or 1);
- * the distance to that face in lengths of `direction`. Where the ray begins in material, outward and distance are 0.
- */
+/* Where a ray meets the sculpture: the first cell on its way that is not empty, of the finest, and its
+ * material; the axis that the face it enters by is square to (0 x, 1 y, 2 z), and the way out of the cell
+ * along that axis (-1 or 1); the distance to that face in lengths of `direction`. Where the ray begins in
+ * material, outward and distance are 0. */
 struct octree_hit {
     int cell[3];
     int axis, outward;
@@ -111,11 +112,12 @@ struct octree_hit {
     unsigned material;
 };
 
-/* The first cell that is not empty along the ray origin + t direction, t >= 0, in units of the octree's cube. The ray
- * goes from cell to cell through faces, so the face it enters by borders on an empty cell or on the outside; where it
- * meets an edge or a corner it crosses x first, then y, then z. A ray that begins on a border begins in the cell that
- * it goes into; one that runs along a border runs in the cells above. False when there is no such cell, and for an
- * origin or direction that is not finite and a direction without length. O(depth) for each leaf on the way. */
+/* The first cell that is not empty along the ray origin + t direction, t >= 0, in units of the octree's cube.
+ * The ray goes from cell to cell through faces, so the face it enters by borders on an empty cell or on the
+ * outside; where it meets an edge or a corner it crosses x first, then y, then z. A ray that begins on a
+ * border begins in the cell that it goes into; one that runs along a border runs in the cells above. False
+ * when there is no such cell, and for an origin or direction that is not finite and a direction without
+ * length. O(depth) for each leaf on the way. */
 bool octree_ray(const struct octree *tree, const double origin[3], const double direction[3],
                 struct octree_hit *hit);
 
@@ -156,8 +158,8 @@ struct octree_info {
 };
 struct octree_info octree_measure(const struct octree *tree);
 
-/* .oct files: see octree_io.c for the layout. *tree must be valid ({0} is): a load replaces it, or leaves it as
- * it was when it fails. Errors name the file and the chunk: STATUS_FILE, STATUS_INPUT (cut short, damaged,
+/* .oct files: see octree_io.c for the layout. *tree must be valid ({0} is): a load replaces it, or leaves it
+ * as it was when it fails. Errors name the file and the chunk: STATUS_FILE, STATUS_INPUT (cut short, damaged,
  * foreign, a depth or count that lies, a newer version), STATUS_NO_MEMORY. Equal sculptures with equal
  * coefficients are saved as equal bytes. */
 enum status octree_load(const char *path, struct octree *tree, struct error *err);

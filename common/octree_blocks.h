@@ -129,7 +129,8 @@ static inline void node_write_eight(struct octree *tree, octree_node node,
     memcpy(to, after, sizeof after);
 }
 
-/* A split node over a new block with these children, which may move tree->blocks. False when memory is not enough. */
+/* A split node over a new block with these children, which may move tree->blocks. False
+ * when memory is not enough. */
 bool octree_split(struct octree *tree, const struct octree_eight *children, octree_node *node);
 
 /* Gives the block of a split node back to the free list. */

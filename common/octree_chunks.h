@@ -30,21 +30,21 @@ struct octree_chunks {
     size_t count, capacity;
 };
 
-/* Like octree_load(); *chunks (valid; {0} is) is replaced by the chunks that are no part of the octree, in the
- * file's order, or as it was after a failure. */
+/* Like octree_load(); *chunks (valid; {0} is) is replaced by the chunks that are no part of the octree, in
+ * the file's order, or as it was after a failure. */
 enum status octree_load_with(const char *path, struct octree *tree, struct octree_chunks *chunks,
                              struct error *err);
 
-/* Like octree_save(), with these chunks (NULL: none) behind the octree. Equal chunks are saved as equal bytes.
- * Errors: also STATUS_RANGE for a chunk of 4 GB or more. */
+/* Like octree_save(), with these chunks (NULL: none) behind the octree. Equal chunks are saved as equal
+ * bytes. Errors: also STATUS_RANGE for a chunk of 4 GB or more. */
 enum status octree_save_with(const struct octree *tree, const struct octree_chunks *chunks, const char *path,
                              struct error *err);
 
 /* The first chunk of this name, or NULL. */
 const struct octree_chunk *octree_chunks_find(const struct octree_chunks *chunks, const char *name);
 
-/* Puts a chunk in the place of the one of this name, or at the end. Takes over *data, which becomes {0}; after
- * STATUS_NO_MEMORY it is the caller's still. */
+/* Puts a chunk in the place of the one of this name, or at the end. Takes over *data, which becomes {0};
+ * after STATUS_NO_MEMORY it is the caller's still. */
 enum status octree_chunks_put(struct octree_chunks *chunks, const char *name, struct bytes *data,
                               struct error *err);
 

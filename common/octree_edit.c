@@ -31,8 +31,8 @@ static octree_node take_whole(struct edit *edit, octree_node node, const double 
     return edit->material;
 }
 
-/* What becomes of a cube of eight cells of which the shape takes some. Whether it was split and whether it will be is
- * chance, so that nothing else here branches. */
+/* What becomes of a cube of eight cells of which the shape takes some. Whether it was split and whether it
+ * will be is chance, so that nothing else here branches. */
 static octree_node edit_cells(struct edit *edit, unsigned inside, octree_node node, const double corner[3],
                               double side)
 {

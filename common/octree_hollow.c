@@ -1,9 +1,10 @@
 /*
  * Hollows: empty leaves that no way from leaf to leaf, across faces, joins to the outside.
  *
- * Every leaf has a slot: where its node is among tree->blocks, or the one after them for the root. Empty leaves that
- * share a face are united in sets (Tarjan, "Efficiency of a good but not linear set union algorithm", Journal of
- * the ACM, 1975), and so is the outside with those at the cube's faces; what is not in its set is a hollow.
+ * Every leaf has a slot: where its node is among tree->blocks, or the one after them for the root. Empty
+ * leaves that share a face are united in sets (Tarjan, "Efficiency of a good but not linear set union
+ * algorithm", Journal of the ACM, 1975), and so is the outside with those at the cube's faces; what is not
+ * in its set is a hollow.
  */
 #include "common/array.h"
 #include "common/octree_blocks.h"

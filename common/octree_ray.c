@@ -1,8 +1,9 @@
 /*
- * Rays through the octree, from leaf to leaf. As in Amanatides and Woo, "A fast voxel traversal algorithm for ray
- * tracing" (Eurographics 1987), the ray leaves a cube by the plane whose time comes first. A plane's time is always
- * calculated from its number, never summed up, and where the ray has got to along the other axes is decided by
- * comparing such times: so long strides through large leaves lead through the very cells that single steps would.
+ * Rays through the octree, from leaf to leaf. As in Amanatides and Woo, "A fast voxel traversal algorithm
+ * for ray tracing" (Eurographics 1987), the ray leaves a cube by the plane whose time comes first. A plane's
+ * time is always calculated from its number, never summed up, and where the ray has got to along the other
+ * axes is decided by comparing such times: so long strides through large leaves lead through the very cells
+ * that single steps would.
  */
 #include "common/octree_blocks.h"
 
@@ -53,8 +54,8 @@ static inline int place_of(const struct march *march, int k, int low, int high)
     return cell;
 }
 
-/* Along one axis: false when the ray never comes to the cube's slab, or from beyond what a double can count. The cell of an origin outside is -1 or `side`.
- */
+/* Along one axis: false when the ray never comes to the cube's slab, or from beyond what a double can count.
+ * The cell of an origin outside is -1 or `side`. */
 static bool prepare_axis(struct march *march, int k, double origin, double direction, double largest)
 {
     const int side = 1 << march->tree->depth;
@@ -104,8 +105,8 @@ static bool enter_cube(struct march *march)
     return true;
 }
 
-/* From the leaf of 2^level cells a side into the next one; the level where their ways from the root part, or above
- * the root's when the ray leaves the cube. */
+/* From the leaf of 2^level cells a side into the next one; the level where their ways from the root part, or
+ * above the root's when the ray leaves the cube. */
 static unsigned leave_leaf(struct march *march, unsigned level)
 {
     const int side = 1 << level;

@@ -10,8 +10,9 @@
  *     if (plot_check("cost.png", err)) ...            before the long work: no gnuplot, no plot
  *     if (plot_save(&plot, "cost.png", err)) ...
  *
- * Enough for a work-precision diagram (curves on logarithmic axes), a time series (lines) and bars. Points that
- * cannot be drawn, those not finite and those not above 0 on a logarithmic axis, are left out and break a line.
+ * Enough for a work-precision diagram (curves on logarithmic axes), a time series (lines) and bars.
+ * Points that cannot be drawn, those not finite and those not above 0 on a logarithmic axis, are
+ * left out and break a line.
  */
 #ifndef COMMON_PLOT_H
 #define COMMON_PLOT_H

@@ -15,7 +15,8 @@ static struct {
     double from; /* what was done at the beginning: a run that is gone on with */
 } progress;
 
-/* The thread that notes how long the work takes: it waits whatever the others are at, so that a first step of a day is told, too. */
+/* The thread that notes how long the work takes: it waits whatever the others are at, so that a first step
+ * of a day is told, too. */
 static struct {
     bool on, end;
     pthread_t thread;
@@ -59,7 +60,8 @@ static void tell(double done, double spent)
         command_note("%s: %s have gone by without a measurable part being done", progress.what, so_far);
 }
 
-/* What waits for a machine that others keep busy is not slow by itself: no word before it has worked for some time. */
+/* What waits for a machine that others keep busy is not slow by itself: no word before it
+ * has worked for some time. */
 static void *keep_watch(void *context)
 {
     enum { FIRST = 20, WORK = 10 };

@@ -1,5 +1,5 @@
-/* Numbers of binary files, lowest byte first, put together byte by byte so that files are the same on any machine. Each call returns the place
- * behind what it has put. */
+/* Numbers of binary files, lowest byte first, put together byte by byte so that files are the same on any
+ * machine. Each call returns the place behind what it has put. */
 #ifndef COMMON_PUT_H
 #define COMMON_PUT_H
 

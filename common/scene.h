@@ -1,6 +1,6 @@
 /*
- * A scene: what a simulation is asked for. Read from a .cfg file (libconfig's grammar), or made from a mesh with
- * the paper's settings, then adjusted key by key.
+ * A scene: what a simulation is asked for. Read from a .cfg file (libconfig's grammar), or made from a mesh
+ * with the paper's settings, then adjusted key by key.
  *
  *     struct scene scene = {0};
  *     if (scene_load("burst.cfg", &scene, err)) ...          or scene_from_mesh("fox.ply", &scene, err)
@@ -9,8 +9,8 @@
  *     scene_clear(&scene);
  *
  * Every key stands in one table, scene_fields.h, with its type, unit, range, default and meaning; the reader,
- * scene_set and scene_write_help all go by it. A block that the scene does not name has `on` false: its effect does
- * not exist.
+ * scene_set and scene_write_help all go by it. A block that the scene does not name has `on` false: its
+ * effect does not exist.
  */
 #ifndef COMMON_SCENE_H
 #define COMMON_SCENE_H
@@ -48,7 +48,8 @@ struct scene_profile {
     size_t count;
 };
 
-/* Of every block that calls for an effect: whether it is there, and its line in the file (0: it came by scene_set). */
+/* Of every block that calls for an effect: whether it is there, and its line in the file (0:
+ * it came by scene_set). */
 struct scene_spring_by_height {
     bool on;
     unsigned line;
@@ -273,19 +274,21 @@ enum scene_stereo {
     SCENE_SEPARATE
 };
 
-/* Reads a scene file. *scene must be empty ({0}) and is so again after a failure. Errors: STATUS_FILE, STATUS_INPUT with
- * FILE:LINE, the key, and what would be right. */
+/* Reads a scene file. *scene must be empty ({0}) and is so again after a failure. Errors: STATUS_FILE,
+ * STATUS_INPUT with FILE:LINE, the key, and what would be right. */
 enum status scene_load(const char *path, struct scene *scene, struct error *err);
 
-/* The paper's settings around one mesh: as in the paper, nobody guards its step, which is a twentieth past what is stable. */
+/* The paper's settings around one mesh: as in the paper, nobody guards its step, which is a
+ * twentieth past what is stable. */
 enum status scene_from_mesh(const char *mesh_path, struct scene *scene, struct error *err);
 
-/* Takes "PATH=VALUE", for example "balloons[0].pressure=12", "view.size=[640,480]", "view.stereo=crossed". A key of a
- * block that was not there calls for the block. Relative paths are relative to the current folder. */
+/* Takes "PATH=VALUE", for example "balloons[0].pressure=12", "view.size=[640,480]",
+ * "view.stereo=crossed". A key of a block that was not there calls for the block. Relative paths are
+ * relative to the current folder. */
 enum status scene_set(struct scene *scene, const char *assignment, struct error *err);
 
-/* What only the whole scene can tell: balloons without a mesh, a schedule for a balloon that is not there, an end
- * before the first step. Puts the schedule in the order of time. */
+/* What only the whole scene can tell: balloons without a mesh, a schedule for a balloon that is not there, an
+ * end before the first step. Puts the schedule in the order of time. */
 enum status scene_check(struct scene *scene, struct error *err);
 
 void scene_clear(struct scene *scene);
@@ -293,15 +296,16 @@ void scene_clear(struct scene *scene);
 /* The profile's value at x; 1 for an empty one. */
 double scene_profile_at(const struct scene_profile *profile, double x);
 
-/* Every key that a state depends on, as it is, a line PATH=VALUE each: equal lines, equal runs. Left out are what only pictures
- * depend on, the end, and where files lie. */
+/* Every key that a state depends on, as it is, a line PATH=VALUE each: equal lines, equal runs. Left out are
+ * what only pictures depend on, the end, and where files lie. */
 void scene_write_keys(const struct scene *scene, FILE *stream);
 
-/* Compares two such texts. False when they are equal; else says in text what differs first: "balloons[0].pressure is 12, and was
- * 10". */
+/* Compares two such texts. False when they are equal; else says in text what differs first:
+ * "balloons[0].pressure is 12, and was 10". */
 bool scene_keys_differ(const char *was, const char *is, char *text, size_t size);
 
-/* Every key with its type, unit, range, default and meaning, as text (`--help-scene`), or as mdoc for the man page. */
+/* Every key with its type, unit, range, default and meaning, as text (`--help-scene`), or as
+ * mdoc for the man page. */
 void scene_write_help(FILE *stream);
 void scene_write_mdoc(FILE *stream);
 

@@ -1,4 +1,5 @@
-/* Contradictions between the blocks of a scene, for scene_check(). All return STATUS_INPUT with the block's line, or STATUS_OK. */
+/* Contradictions between the blocks of a scene, for scene_check(). All return STATUS_INPUT with the
+ * block's line, or STATUS_OK. */
 #ifndef COMMON_SCENE_CHECKS_H
 #define COMMON_SCENE_CHECKS_H
 
@@ -9,7 +10,8 @@ enum status scene_contradiction(const struct scene *scene, size_t number, const 
                                 struct error *err, const char *format, ...)
     __attribute__((format(printf, 6, 7)));
 
-/* Gas and tube of one balloon: what is missing, what cannot be had together, a pump without gas, a tube to nowhere. */
+/* Gas and tube of one balloon: what is missing, what cannot be had together, a pump without
+ * gas, a tube to nowhere. */
 enum status scene_check_gas(const struct scene *scene, size_t number, struct error *err);
 
 /* Directions of pins, string and neck that are none; a weight that nothing pulls. */
@@ -19,7 +21,8 @@ enum status scene_check_places(const struct scene *scene, size_t number, struct 
 enum status scene_check_surroundings(const struct scene *scene, struct error *err);
 /* A skin that tears by a method, or with springs, that cannot follow it (scene_checks_skin.c). */
 enum status scene_check_fracture(const struct scene *scene, size_t number, struct error *err);
-/* A membrane without thickness, with springs' settings or springs' methods, or of no rubber (scene_checks_skin.c). */
+/* A membrane without thickness, with springs' settings or springs' methods, or of no rubber
+ * (scene_checks_skin.c). */
 enum status scene_check_membrane(const struct scene *scene, size_t number, struct error *err);
 
 #endif

@@ -37,7 +37,8 @@ static enum status check_viscosity(const struct scene *scene, size_t number, str
                                scene->time.step);
 }
 
-/* Methods that go by what hangs together at the start: their solvers' and constraints' tables are made once. */
+/* Methods that go by what hangs together at the start: their solvers' and
+ * constraints' tables are made once. */
 enum status scene_check_fracture(const struct scene *scene, size_t number, struct error *err)
 {
     static const char *const fixed[] = {"backward-euler", "implicit-midpoint", "bdf2",
@@ -60,7 +61,8 @@ enum status scene_check_fracture(const struct scene *scene, size_t number, struc
     return STATUS_OK;
 }
 
-/* Hinges are no constraints of its kind, and as forces from outside they would be moved with steps that suit nobody. */
+/* Hinges are no constraints of its kind, and as forces from outside they would be moved with
+ * steps that suit nobody. */
 static enum status check_bending(const struct scene *scene, size_t number, struct error *err)
 {
     const struct scene_bending *block = &scene->balloons[number].bending;

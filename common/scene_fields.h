@@ -1,11 +1,11 @@
 /*
- * Every key that a scene can have: the one place where its type, range, unit, default, meaning and source are said.
- * A row is
+ * Every key that a scene can have: the one place where its type, range, unit, default, meaning and
+ * source are said. A row is
  *     X(key, TYPE, least, most, default, unit, flags, "meaning", "source")
- * The member of the struct in scene.h has the key's name. Defaults are written as in a scene file. Ranges of a vector
- * hold for each of its numbers. LIVE keys may stand in the schedule; FREE ones may be others when a run
- * is resumed. Units are the scene's own (the paper gives none):
- * length, mass and time are whatever the user takes them for, as long as they agree.
+ * The member of the struct in scene.h has the key's name. Defaults are written as in a scene file. Ranges of
+ * a vector hold for each of its numbers. LIVE keys may stand in the schedule; FREE ones may be others when a
+ * run is resumed. Units are the scene's own (the paper gives none): length, mass and time are whatever the
+ * user takes them for, as long as they agree.
  */
 #ifndef COMMON_SCENE_FIELDS_H
 #define COMMON_SCENE_FIELDS_H

@@ -130,8 +130,9 @@ static const char *next_line(const char *text)
     return *text ? text + 1 : text;
 }
 
-/* The line of this key in another text. The search begins at `from`, a line of it, and goes round; it leaves `from` after what it
- * finds, since keys come in one order: with many balloons, to begin at the first would take as long as all their pairs. */
+/* The line of this key in another text. The search begins at `from`, a line of it, and goes round; it leaves
+ * `from` after what it finds, since keys come in one order: with many balloons, to begin at the first would
+ * take as long as all their pairs. */
 static struct line find_key(const char *text, const char **from, struct line key)
 {
     const char *at = *from;

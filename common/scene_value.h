@@ -1,6 +1,6 @@
 /*
- * How a value written in a scene file, or behind --set, becomes the member of a struct. Inside of scene_load.c; these
- * two files are the only ones that know libconfig.
+ * How a value written in a scene file, or behind --set, becomes the member of a struct. Inside of
+ * scene_load.c; these two files are the only ones that know libconfig.
  */
 #ifndef COMMON_SCENE_VALUE_H
 #define COMMON_SCENE_VALUE_H
@@ -32,8 +32,8 @@ enum status scene_read_number(const struct scene_field *field, const config_sett
 enum status scene_read_value(const struct scene_field *field, const config_setting_t *value,
                              const struct scene_source *source, void *block, struct error *err);
 
-/* The value written in `text`, as libconfig reads it; bare words are taken as if in quotes. It belongs to config,
- * which must be initialised. NULL when it is no value. */
+/* The value written in `text`, as libconfig reads it; bare words are taken as if in quotes. It belongs to
+ * config, which must be initialised. NULL when it is no value. */
 config_setting_t *scene_parse_value(config_t *config, const char *text);
 
 #endif

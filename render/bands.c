@@ -116,8 +116,8 @@ static void find_box(const struct band *band, int box[4])
         box[i] = result[i];
 }
 
-/* Backdrop and shadow where the target is read from, or, with several samples a pixel, where it is drawn. A picture in one band
- * has the same backdrop as the one before it. */
+/* Backdrop and shadow where the target is read from, or, with several samples a pixel, where it is drawn. A
+ * picture in one band has the same backdrop as the one before it. */
 static void draw_behind(const struct band *band, bool smoothly)
 {
     struct render *render = band->render;
@@ -208,7 +208,8 @@ static enum status draw_strip(struct band *band, const int strip[4], struct erro
     return STATUS_OK;
 }
 
-/* Only the part of the picture that anything may meet is drawn in linear light; the backdrop around it is the same. */
+/* Only the part of the picture that anything may meet is drawn in linear light; the backdrop
+ * around it is the same. */
 static enum status draw_in_light(struct band *band, struct error *err)
 {
     int box[4], side = band->view->samples > 1 ? band->view->samples : 1;

@@ -11,8 +11,8 @@ struct behind {
     int count;
 };
 
-/* Copies the rectangle into what the target is read from, and binds that; false where it holds none such. The scissor's test is off
- * afterwards. */
+/* Copies the rectangle into what the target is read from, and binds that; false where it holds none such. The
+ * scissor's test is off afterwards. */
 bool behind_fetch(struct behind *behind, const struct gl *gl, const struct target *target,
                   const int rectangle[4]);
 

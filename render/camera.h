@@ -30,8 +30,8 @@ void camera_space_of(const struct render_camera *camera, struct camera_space *sp
 void camera_to_space(const struct camera_space *space, const double point[3], double out[3]);
 void camera_turn(const struct camera_space *space, const double direction[3], double out[3]);
 
-/* Fills eyes[0 .. n) and returns n: 1, or in stereo 2, the one whose picture is on the left or above first, or the left
- * eye. */
+/* Fills eyes[0 .. n) and returns n: 1, or in stereo 2, the one whose picture is on the left or above
+ * first, or the left eye. */
 int camera_eyes(const struct render_view *view, struct camera_eye eyes[2]);
 
 /* Into how many columns and rows eyes divide the picture: 2 of one where each has a half. */

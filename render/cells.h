@@ -1,8 +1,9 @@
 /*
- * The sorted triangles in one eye's picture, cell by cell: squares of its pixels, each with those that reach into it, in the
- * order of all. Drawn cell by cell, with the scissor around each, they make the same picture to the bit. A renderer that works tile by tile,
- * as software does, finds a tile's triangles close together in memory then, and corners that neighbours share shaded already: sorted
- * triangles on the whole lie far from their neighbours, and drawing them takes up to twice as long.
+ * The sorted triangles in one eye's picture, cell by cell: squares of its pixels, each with those that reach
+ * into it, in the order of all. Drawn cell by cell, with the scissor around each, they make the same picture
+ * to the bit. A renderer that works tile by tile, as software does, finds a tile's triangles close together
+ * in memory then, and corners that neighbours share shaded already: sorted triangles on the whole lie far
+ * from their neighbours, and drawing them takes up to twice as long.
  *
  *     struct cells cells = {0};
  *     if (cells_build(&cells, &geometry, &eye, err)) ...          once a frame and eye; keeps its memory
@@ -41,8 +42,8 @@ struct cells {
     } ranges; /* of the triangles */
 };
 
-/* Where triangles are sorted, and many enough; not with smooth outlines, of whose samples Mesa's software loses some along a scissor's
- * edge. */
+/* Where triangles are sorted, and many enough; not with smooth outlines, of whose samples Mesa's software
+ * loses some along a scissor's edge. */
 bool cells_are_worth_it(const struct geometry *geometry, const struct render_view *view);
 
 /* Of the translucent triangles, in the order in which they are. Errors: STATUS_NO_MEMORY. */

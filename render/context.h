@@ -1,8 +1,8 @@
 /*
- * An OpenGL context without a display. Its own framebuffer is a single pixel or none: draw into a target.
- * It comes from the first of the backends below that this machine has: OSMesa, which needs nothing but memory, or EGL without
- * a surface, which Mesa keeps where OSMesa is gone. The environment variable BALLOON_CONTEXT ("osmesa", "egl") allows only
- * that one.
+ * An OpenGL context without a display. Its own framebuffer is a single pixel or none: draw into a target. It
+ * comes from the first of the backends below that this machine has: OSMesa, which needs nothing but memory,
+ * or EGL without a surface, which Mesa keeps where OSMesa is gone. The environment variable BALLOON_CONTEXT
+ * ("osmesa", "egl") allows only that one.
  */
 #ifndef RENDER_CONTEXT_H
 #define RENDER_CONTEXT_H

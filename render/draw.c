@@ -237,8 +237,8 @@ void draw_translucent(const struct draw *draw, const struct gl *gl, enum render_
         draw_indices(gl, 3 * g->opaque.count, 3 * g->translucent.count);
 }
 
-/* Opaque triangles hide by depth; translucent ones are hidden by those, and lie over one another in their order. The
- * shader gives the light to add and the share of each colour to keep of what lies behind. */
+/* Opaque triangles hide by depth; translucent ones are hidden by those, and lie over one another in their
+ * order. The shader gives the light to add and the share of each colour to keep of what lies behind. */
 void draw_eye(const struct draw *draw, const struct gl *gl, const struct draw_place *place,
               const struct camera_eye *eye, const struct geometry *geometry)
 {

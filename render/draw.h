@@ -32,7 +32,8 @@ struct draw {
     const struct cells *cells;
 };
 
-/* Where an eye's whole picture lies in the framebuffer, and which part of it is drawn (x, y, width, height); how bright 1 is. */
+/* Where an eye's whole picture lies in the framebuffer, and which part of it is drawn (x, y, width,
+ * height); how bright 1 is. */
 struct draw_place {
     int viewport[4], scissor[4];
     float brightness;
@@ -43,12 +44,14 @@ struct draw_place {
 enum status draw_open(struct draw *draw, const struct gl *gl, struct error *err);
 void draw_close(struct draw *draw, const struct gl *gl);
 
-/* Hands the geometry over, once a frame. `cells`: [2] one for each eye, of the translucent triangles, which are drawn by them where they are blended; borrowed
- * until the next time. NULL: they are drawn as they come. */
+/* Hands the geometry over, once a frame. `cells`: [2] one for each eye, of the translucent
+ * triangles, which are drawn by them where they are blended; borrowed until the next time. NULL:
+ * they are drawn as they come. */
 void draw_upload(struct draw *draw, const struct gl *gl, const struct geometry *geometry,
                  const struct cells *cells);
 
-/* Makes ready what draws skins of that style that way. Errors: STATUS_RESOURCE with the compiler's message. */
+/* Makes ready what draws skins of that style that way. Errors: STATUS_RESOURCE with
+ * the compiler's message. */
 enum status draw_ready(struct draw *draw, const struct gl *gl, enum render_style style, enum light_way way,
                        struct error *err);
 

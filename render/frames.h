@@ -20,20 +20,21 @@ struct frames_options {
     const char *folder; /* frame_0000.png, frame_0001.png, ... are written here; made if missing; or NULL */
     const char *movie;  /* .mp4, .webm or .gif, through the program ffmpeg; or NULL */
     const char *sheet;  /* PNG of twelve moments, evenly spaced in how much the picture changes; or NULL */
-    const char
-        *eye;     /* "left" or "right": every name ends in -left or -right, before its extension; or NULL */
+    /* "left" or "right": every name ends in -left or -right, before its extension; or NULL. */
+    const char *eye;
     size_t first; /* number of the first PNG */
     double rate;  /* pictures a second in the movie; 0: 30 */
     int workers;  /* threads that encode PNGs; 0: one for each processor */
-    const struct image_text
-        *texts; /* [text_count] for every PNG, borrowed until frames_close(); "Time" is added */
+    /* [text_count] for every PNG, borrowed until frames_close(); "Time" is added. */
+    const struct image_text *texts;
     size_t text_count;
 };
 
 struct frames;
 
-/* Begins. frame_files.h tells what an earlier run has left in the folder. Errors: STATUS_FILE (the folder cannot be made, is a file or cannot be written), STATUS_USAGE (the
- * movie's extension), STATUS_RESOURCE (ffmpeg is not installed or lacks an encoder), STATUS_NO_MEMORY. Nothing is left behind. */
+/* Begins. frame_files.h tells what an earlier run has left in the folder. Errors: STATUS_FILE (the folder
+ * cannot be made, is a file or cannot be written), STATUS_USAGE (the movie's extension), STATUS_RESOURCE
+ * (ffmpeg is not installed or lacks an encoder), STATUS_NO_MEMORY. Nothing is left behind. */
 enum status frames_open(const struct frames_options *options, struct frames **frames, struct error *err);
 
 /* Adds a copy of the next picture, shown at `time` (seconds, for the sheet's labels and the PNGs' text). All
@@ -42,8 +43,8 @@ enum status frames_open(const struct frames_options *options, struct frames **fr
 enum status frames_add(struct frames *frames, const struct image *image, double time, struct error *err);
 
 /* Waits for what is queued, ends the movie, writes the sheet and frees `frames`. Returns the first error of
- * the whole run, also when frames_add() returned it before. PNGs that were complete stay; after an error there is
- * no movie that was not complete and no sheet, and an older file of its name is untouched. */
+ * the whole run, also when frames_add() returned it before. PNGs that were complete stay; after an error
+ * there is no movie that was not complete and no sheet, and an older file of its name is untouched. */
 enum status frames_close(struct frames *frames, struct error *err);
 
 /* The same where the run failed elsewhere: PNGs stay, the movie and the sheet are thrown away. */

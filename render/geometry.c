@@ -150,8 +150,8 @@ static bool is_direction(const double normal[3])
     return square > 1e-12 && square < 1e12;
 }
 
-/* Where a skin is torn or folded sharply its points' normals may say nothing of the triangle at hand: more than 70 degrees
- * away they are not taken. */
+/* Where a skin is torn or folded sharply its points' normals may say nothing of the triangle at hand: more
+ * than 70 degrees away they are not taken. */
 static bool is_crease(const struct building *b, const double normal[3], const double facet[3])
 {
     return b->is_latex && vec3_dot(normal, facet) < 0.34 * vec3_length(normal);

@@ -26,8 +26,8 @@ struct geometry_triangle {
     uint32_t nearness; /* larger is nearer: the order to draw in; the bits of a float upside down */
 };
 
-/* What tells whether the triangles around a point close: sums over them of the difference between their other two
- * points, as numbers and as places. Both vanish where they do; else the second leads along the rim. */
+/* What tells whether the triangles around a point close: sums over them of the difference between their other
+ * two points, as numbers and as places. Both vanish where they do; else the second leads along the rim. */
 struct geometry_fan {
     uint64_t numbers;
     float places[3];
@@ -74,8 +74,8 @@ struct geometry {
     struct geometry_shadow shadow;
 };
 
-/* `view` has been checked. `others` are points of the scene that shall be in sight too (low .. farthest): those of
- * what is drawn by others. Errors: STATUS_RANGE naming the skin and element, STATUS_NO_MEMORY. */
+/* `view` has been checked. `others` are points of the scene that shall be in sight too (low .. farthest):
+ * those of what is drawn by others. Errors: STATUS_RANGE naming the skin and element, STATUS_NO_MEMORY. */
 enum status geometry_build(struct geometry *geometry, const struct render_view *view,
                            const struct render_skin *skins, size_t skin_count, const double (*others)[3],
                            size_t other_count, struct error *err);

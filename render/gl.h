@@ -1,6 +1,7 @@
 /*
- * The OpenGL functions that the drawing uses, of version 3.3 but for two, called through pointers that belong to one context: so one
- * process can draw off-screen and in a window at once, whichever library the context comes from.
+ * The OpenGL functions that the drawing uses, of version 3.3 but for two, called through pointers that
+ * belong to one context: so one process can draw off-screen and in a window at once, whichever library
+ * the context comes from.
  */
 #ifndef RENDER_GL_H
 #define RENDER_GL_H

@@ -12,7 +12,8 @@ struct hints {
 /* The text is cut off where it is longer than any error. */
 void hints_say(struct hints *hints, const char *text);
 
-/* The keys for that, the same in every window: F1 and ? show the list and hide it, Escape takes all away. False for any other key. */
+/* The keys for that, the same in every window: F1 and ? show the list and hide it, Escape takes all away.
+ * False for any other key. */
 bool hints_key(struct hints *hints, int key);
 
 #endif

@@ -1,5 +1,5 @@
-/* From a skin's stretch to what its film does to light. Rubber keeps its volume: thickness is that at rest over the
- * area stretch. */
+/* From a skin's stretch to what its film does to light. Rubber keeps its volume: thickness is that at rest
+ * over the area stretch. */
 #include "render/geometry.h"
 
 #include "common/vec3.h"
@@ -11,8 +11,8 @@ const float latex_opaque = 4; /* exp(-2 x 4): less than a tenth of 1/255 */
 
 static const double scattering = 2;
 
-/* The optical depth (over K + S, as in the shader) at which the skin lets 1 - opacity of white light's luminance pass
- * (ITU-R BT.709), by halving: what passes falls with depth. */
+/* The optical depth (over K + S, as in the shader) at which the skin lets 1 - opacity of white light's
+ * luminance pass (ITU-R BT.709), by halving: what passes falls with depth. */
 static double film_of(const struct render_skin *skin)
 {
     static const double luminance[3] = {0.2126, 0.7152, 0.0722};
@@ -34,8 +34,8 @@ static double film_of(const struct render_skin *skin)
     return low;
 }
 
-/* Spreads a point's number over 64 bits (Steele, Lea and Flood, "Fast splittable pseudorandom number generators",
- * 2014): sums of unequal ones do not vanish by chance. */
+/* Spreads a point's number over 64 bits (Steele, Lea and Flood, "Fast splittable pseudorandom number
+ * generators", 2014): sums of unequal ones do not vanish by chance. */
 static uint64_t spread(uint64_t number)
 {
     number = (number + 1) * 0x9e3779b97f4a7c15;
@@ -77,8 +77,8 @@ void latex_measure(struct geometry_latex *latex, const struct render_skin *skin,
     const double hole = rim * rim / (4 * M_PI);
     *latex = (struct geometry_latex){
         .film = (float)film_of(skin),
-        /* of a Beckmann surface and a Phong lobe that spread alike: Walter et al., "Microfacet models for refraction
-         * through rough surfaces" (2007) */
+        /* of a Beckmann surface and a Phong lobe that spread alike: Walter et al., "Microfacet models for
+         * refraction through rough surfaces" (2007) */
         .roughness = sqrtf(2 / (fminf(fmaxf(skin->rest_shininess, 0), 10000) + 2)),
         .closed = area > 0 && isfinite(hole / area) ? (float)exp(-12 * hole / area) : 0,
     };

@@ -1,6 +1,6 @@
 /*
- * A picture in linear light, of half floats, with layers in exact order and several samples a pixel side by side; and its
- * way to the screen through a tone curve. It holds a strip of the whole picture at a time.
+ * A picture in linear light, of half floats, with layers in exact order and several samples a pixel side by
+ * side; and its way to the screen through a tone curve. It holds a strip of the whole picture at a time.
  *
  *     struct light light = {0};
  *     if (light_open(&light, &gl, err)) ...                             once
@@ -41,8 +41,8 @@ struct light {
     bool lists;                          /* this OpenGL has storage buffers */
 };
 
-/* What draws the translucent triangles: all of them, with the shaders of one way. `taken`: the texture unit's distances that a
- * layer has to be before (peeled); `width`, `room`: of the lists. */
+/* What draws the translucent triangles: all of them, with the shaders of one way. `taken`: the texture unit's
+ * distances that a layer has to be before (peeled); `width`, `room`: of the lists. */
 enum light_way { LIGHT_BLENDED, LIGHT_PEELING, LIGHT_LISTED, LIGHT_WAYS };
 struct light_pass {
     enum light_way way;
@@ -60,16 +60,16 @@ void light_close(struct light *light, const struct gl *gl);
 enum status light_bind(struct light *light, const struct gl *gl, int width, int height, int samples,
                        struct error *err);
 
-/* The translucent triangles over what is drawn, hidden by its depth. RENDER_LIST peels where there are no storage buffers or
- * more fragments than one holds. layers.c */
+/* The translucent triangles over what is drawn, hidden by its depth. RENDER_LIST peels where there are no
+ * storage buffers or more fragments than one holds. layers.c */
 void light_layers(struct light *light, const struct gl *gl, enum render_order order, light_draw *draw,
                   void *self);
 
 /* After the last triangle: with four samples a pixel, takes their mean. */
 void light_finish(const struct light *light, const struct gl *gl);
 
-/* Draws the strip with its lower left corner at `corner` (pixels), side x side samples a pixel, into the framebuffer that
- * is bound. exposure 0: without the tone curve. */
+/* Draws the strip with its lower left corner at `corner` (pixels), side x side samples a pixel, into the
+ * framebuffer that is bound. exposure 0: without the tone curve. */
 void light_tone(const struct light *light, const struct gl *gl, const int corner[2], int side,
                 float exposure);
 

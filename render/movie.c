@@ -27,8 +27,8 @@ struct movie {
 };
 
 /* How each kind is encoded: for mp4 and webm 4:2:0 colour, which every player takes, marked as BT.709 so that
- * red stays red; for gif a palette of its own for every picture, so that none has to be kept. What is written can be played from
- * its start however soon it ends: mp4 and webm in fragments of a second. */
+ * red stays red; for gif a palette of its own for every picture, so that none has to be kept. What is written
+ * can be played from its start however soon it ends: mp4 and webm in fragments of a second. */
 struct kind {
     const char *extension, *encoder, *filter;
     const char *options[16];

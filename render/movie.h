@@ -8,8 +8,8 @@
  *     return movie_commit(movie, err);                             or movie_abandon(movie)
  *
  * It is written under another name in the same folder, so the file that was there stays whole until the end.
- * Should this program be killed, ffmpeg meets the end of its pipe and completes that other file; should ffmpeg be killed with
- * it, all but the last second can still be played.
+ * Should this program be killed, ffmpeg meets the end of its pipe and completes that other file; should
+ * ffmpeg be killed with it, all but the last second can still be played.
  */
 #ifndef RENDER_MOVIE_H
 #define RENDER_MOVIE_H
@@ -24,8 +24,9 @@ struct movie;
 enum status movie_check(const char *path, struct error *err);
 
 /* Starts ffmpeg for pictures of this size, `rate` of them a second (above 0, at most 1000). Odd sizes
- * lose their last column or row, since movies halve their colours' resolution (.gif does not). The path is one that
- * movie_check() took. Errors: STATUS_RANGE for a side below 2 or a rate out of range; STATUS_FILE, STATUS_NO_MEMORY. */
+ * lose their last column or row, since movies halve their colours' resolution (.gif does not). The path
+ * is one that movie_check() took. Errors: STATUS_RANGE for a side below 2 or a rate out of range;
+ * STATUS_FILE, STATUS_NO_MEMORY. */
 enum status movie_open(const char *path, int width, int height, double rate, struct movie **movie,
                        struct error *err);
 

@@ -30,7 +30,8 @@ void outlines_close(struct outlines *outlines, const struct gl *gl)
     *outlines = (struct outlines){0};
 }
 
-/* A pixel's neighbours are still looked at when it is drawn already. The texture has the numbers as they are, and so what is drawn has. */
+/* A pixel's neighbours are still looked at when it is drawn already. The texture has the numbers as they are,
+ * and so what is drawn has. */
 static void copy_picture(struct outlines *outlines, const struct gl *gl, const struct target *target,
                          const int box[4])
 {

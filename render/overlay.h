@@ -1,4 +1,5 @@
-/* What lies over a picture: lines in space; boxes and, over them, lines of text on the glass. See struct render_scene. */
+/* What lies over a picture: lines in space; boxes and, over them, lines of text on the glass.
+ * See struct render_scene. */
 #ifndef RENDER_OVERLAY_H
 #define RENDER_OVERLAY_H
 
@@ -23,8 +24,8 @@ struct render_text {
     bool boxed;      /* a dim box behind it keeps it readable on any picture */
 };
 
-/* A rectangle in one colour on the glass: what sliders, legends and small plots are made of. In stereo each eye's picture
- * carries it at the same place. */
+/* A rectangle in one colour on the glass: what sliders, legends and small plots are made of. In stereo each
+ * eye's picture carries it at the same place. */
 struct render_box {
     int x, y, width, height; /* upper left corner from that of one eye's picture, in pixels */
     float colour[3];         /* linear light, 0 .. 1 */

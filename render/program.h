@@ -1,4 +1,5 @@
-/* A program of the graphics card, from its sources; and the indices that draw four corners as two triangles. */
+/* A program of the graphics card, from its sources; and the indices that draw four
+ * corners as two triangles. */
 #ifndef RENDER_PROGRAM_H
 #define RENDER_PROGRAM_H
 
@@ -17,8 +18,8 @@ struct quads {
     size_t capacity; /* quads */
 };
 
-/* Makes it hold `count` quads and keeps its name, so that vertex arrays that know it stay good. Binds it to the
- * vertex array that is bound. Errors: STATUS_NO_MEMORY. */
+/* Makes it hold `count` quads and keeps its name, so that vertex arrays that know it stay good. Binds it to
+ * the vertex array that is bound. Errors: STATUS_NO_MEMORY. */
 enum status quads_reserve(struct quads *quads, const struct gl *gl, size_t count, struct error *err);
 void quads_clear(struct quads *quads, const struct gl *gl);
 

@@ -81,8 +81,9 @@ static enum status collect_points(struct render *render, const struct render_sce
     return STATUS_OK;
 }
 
-/* Sorted triangles lie about anywhere in the picture: cells bring neighbours together again. Where a window is drawn into, each change of
- * the scissor costs more than that gains: 7 pictures a second of 100,000 triangles against 10. */
+/* Sorted triangles lie about anywhere in the picture: cells bring neighbours together again. Where a
+ * window is drawn into, each change of the scissor costs more than that gains: 7 pictures a second of
+ * 100,000 triangles against 10. */
 static bool uses_cells(const struct render *render, const struct render_view *view)
 {
     return !render->window && cells_are_worth_it(&render->geometry, view);

@@ -1,6 +1,6 @@
 /*
- * Draws meshes as balloon skin, and sculptures of cubes, in one picture or as a stereo pair, without a display
- * or in a window.
+ * Draws meshes as balloon skin, and sculptures of cubes, in one picture or as a stereo pair, without a
+ * display or in a window.
  *
  *     struct render_view view = {.width = 1280, .height = 480, .stereo = RENDER_PARALLEL, .order = RENDER_SORT};
  *     const double from[3] = {0.4, 0.3, 1};
@@ -63,8 +63,9 @@ enum render_order {
 
 /* How outlines are drawn where each pixel has one sample. */
 enum render_outlines {
-    RENDER_ROUGH,    /* a pixel is within or without */
-    RENDER_FILTERED, /* drawn rough, and then their steps smoothed: nearly as good as the next, for much less */
+    RENDER_ROUGH, /* a pixel is within or without */
+    /* Drawn rough, and then their steps smoothed: nearly as good as the next, for much less. */
+    RENDER_FILTERED,
     RENDER_SAMPLED, /* with four samples a pixel; rough where order is exact */
 };
 
@@ -151,12 +152,14 @@ enum status render_show(struct render *render, const struct render_view *view,
 /* NULL is fine. */
 void render_close(struct render *render);
 
-/* All of the above for one still: the skin stands on the floor and fills a picture, which is saved as the PNG file `path` with the
- * program's name in it. Errors: those of render_open(), render_draw() and image_save_png(), with the path in front. */
+/* All of the above for one still: the skin stands on the floor and fills a picture, which is saved as the PNG
+ * file `path` with the program's name in it. Errors: those of render_open(), render_draw() and
+ * image_save_png(), with the path in front. */
 enum status render_still(const struct render_skin *skin, const char *path, const char *software,
                          struct error *err);
 
-/* The same picture in another size, as the bytes of a PNG file; *png is overwritten, free it with bytes_clear(). */
+/* The same picture in another size, as the bytes of a PNG file; *png is overwritten, free
+ * it with bytes_clear(). */
 enum status render_still_png(const struct render_skin *skin, int width, int height, const char *software,
                              struct bytes *png, struct error *err);
 

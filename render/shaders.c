@@ -85,10 +85,10 @@ const char shader_solid_fragment[] =
     "    light = vec4(kept * face_light, 1.0);\n"
     "}\n";
 
-/* A line becomes a rectangle on the screen, half a pixel wider on each side for the smooth rim. What lies behind
- * the near plane is cut off first. It is drawn a thousandth nearer than it is, so that one on a surface is
- * whole: nearer along the rays to the eye, which moves nothing on the screen. The division by w is done here, as
- * a rectangle on the screen has no perspective. */
+/* A line becomes a rectangle on the screen, half a pixel wider on each side for the smooth rim. What lies
+ * behind the near plane is cut off first. It is drawn a thousandth nearer than it is, so that one on a
+ * surface is whole: nearer along the rays to the eye, which moves nothing on the screen. The division by w is
+ * done here, as a rectangle on the screen has no perspective. */
 const char shader_line_vertex[] =
     "#version 330 core\n"
     "layout(location = 0) in vec3 from;\n"

@@ -39,8 +39,8 @@ const char shader_layer_fragment[] = "#version 330 core\n"
                                      "    passing = texelFetch(layer_passing, at, 0);\n"
                                      "}\n";
 
-/* Takes a pixel's fragments from the farthest on, those at one distance in the order of their places: searching the list
- * again for each needs no room of its own, and lists are short. */
+/* Takes a pixel's fragments from the farthest on, those at one distance in the order of their places:
+ * searching the list again for each needs no room of its own, and lists are short. */
 const char shader_list_fragment[] =
     "#version 430 core\n"
     "layout(std430, binding = 0) buffer Heads { uint used; uint head[]; };\n"
@@ -80,8 +80,9 @@ const char shader_list_fragment[] =
     "    passing = vec4(passes, 0.0);\n"
     "}\n";
 
-/* Dubois, "A projection method to generate anaglyph stereo images" (2001): the least-squares match of what each eye sees
- * through red and cyan filters, in linear light; the matrices are of his page's usual glasses. */
+/* Dubois, "A projection method to generate anaglyph stereo images" (2001): the least-squares
+ * match of what each eye sees through red and cyan filters, in linear light; the matrices are of
+ * his page's usual glasses. */
 const char shader_stereo_fragment[] =
     "#version 330 core\n"
     "uniform sampler2D left_picture, right_picture;\n"

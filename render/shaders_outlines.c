@@ -1,8 +1,9 @@
 /* What smooths the steps of outlines; see outlines.h. */
 #include "render/shaders.h"
 
-/* The picture is read as sRGB's own numbers, whose weighted sum is lightness enough, and whose squares are about linear light. An
- * outline that is followed further than `farthest` has bent meanwhile: what is further says no more of where it is here. */
+/* The picture is read as sRGB's own numbers, whose weighted sum is lightness enough, and whose squares are
+ * about linear light. An outline that is followed further than `farthest` has bent meanwhile: what is further
+ * says no more of where it is here. */
 const char shader_outlines_fragment[] =
     "#version 330 core\n"
     "uniform sampler2D picture;\n"
@@ -14,7 +15,8 @@ const char shader_outlines_fragment[] =
     "    ivec2 within = clamp(at, box.xy, box.xy + box.zw - 1);\n"
     "    return dot(texelFetch(picture, within, 0).rgb, vec3(0.2126, 0.7152, 0.0722));\n"
     "}\n"
-    /* How many pixels it is along an edge to where both its sides together become lighter or darker, by how much. */
+    /* How many pixels it is along an edge to where both its sides together become lighter
+     * or darker, by how much. */
     "int to_end(ivec2 at, ivec2 beyond, ivec2 along, float middle, float least, out float change)\n"
     "{\n"
     "    int steps = 0;\n"
@@ -57,7 +59,8 @@ const char shader_outlines_fragment[] =
     /* a long edge that turns there and does not go on in the next row has a corner, which stays one */
     "    if (run > 3.0 && (lightness(at + near * along - beyond) - middle) * difference > 0.0)\n"
     "        discard;\n"
-    /* what is beyond a line from half a pixel before the edge at the near end to the edge in the middle of the run */
+    /* what is beyond a line from half a pixel before the edge at the near end to the edge
+     * in the middle of the run */
     "    float from = float(near - 1), to = min(float(near), 0.5 * run);\n"
     "    float share = 0.5 * (to - from) * (1.0 - (to + from) / run);\n"
     "    vec3 own = texelFetch(picture, at, 0).rgb, others = texelFetch(picture, at + beyond, 0).rgb;\n"

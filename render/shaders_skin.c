@@ -1,4 +1,5 @@
-/* The skins' shaders: a material (the paper's or latex) with an end that blends, keeps one layer, or lists. */
+/* The skins' shaders: a material (the paper's or latex) with an end that blends,
+ * keeps one layer, or lists. */
 #include "render/shaders.h"
 #include "render/shaders_studio.h"
 
@@ -22,9 +23,9 @@ const char shader_paper_vertex[] = "#version 330 core\n"
                                    "    gl_Position = projection * vec4(position, 1.0);\n"
                                    "}\n";
 
-/* Two soft boxes of the studio: the key light and a strip at the rim; what a mirror sees of one that is blurred by a
- * Gaussian of standard deviation blur / sqrt 2. A box is a product of differences of the error function, here a cubic
- * that has its slope at 0 and its limits. */
+/* Two soft boxes of the studio: the key light and a strip at the rim; what a mirror sees of one that is
+ * blurred by a Gaussian of standard deviation blur / sqrt 2. A box is a product of differences of the error
+ * function, here a cubic that has its slope at 0 and its limits. */
 #define BOXES                                                                                          \
     "const vec3 key_across = vec3(0.6455, 0.0, 0.7638);\n"                                             \
     "const vec3 key_along = vec3(0.4818, 0.7760, -0.4072);\n"                                          \
@@ -93,13 +94,13 @@ const char shader_paper_vertex[] = "#version 330 core\n"
     "}\n"
 
 /*
- * Latex by its film thickness. A vertex has its optical depth at K + S = 1 (`film`: thickness at rest over area
- * stretch) and its roughness. Absorption follows from the colour by Kubelka and Munk (1931), K/S = (1 - R)^2 / 2R for
- * a thick skin of reflectance R, with scattering S = 2; what a film of finite depth reflects and passes diffusely are their
- * hyperbolic solutions with 2 K for diffuse light. Rubber pales as it thins because S keeps reflecting where K no
- * longer absorbs. That body light is found at the points, for both sides: what falls on the near side is reflected, what
- * falls on the far one comes through. Inside a closed skin (`closed` 1) light bounces on and on: a geometric series, which is the
- * glow of the inner wall.
+ * Latex by its film thickness. A vertex has its optical depth at K + S = 1 (`film`: thickness at rest over
+ * area stretch) and its roughness. Absorption follows from the colour by Kubelka and Munk (1931), K/S = (1 -
+ * R)^2 / 2R for a thick skin of reflectance R, with scattering S = 2; what a film of finite depth reflects
+ * and passes diffusely are their hyperbolic solutions with 2 K for diffuse light. Rubber pales as it thins
+ * because S keeps reflecting where K no longer absorbs. That body light is found at the points, for both
+ * sides: what falls on the near side is reflected, what falls on the far one comes through. Inside a closed
+ * skin (`closed` 1) light bounces on and on: a geometric series, which is the glow of the inner wall.
  */
 const char shader_latex_vertex[] =
     "#version 330 core\n"
@@ -137,12 +138,14 @@ const char shader_latex_vertex[] =
     "}\n";
 
 /*
- * A slab of index 1.52, exactly: Fresnel's F at either surface, Snell's angle inside, Beer and Lambert along the path,
- * and all inner reflections summed: T = (1 - F)^2 t / (1 - F^2 t^2), R = F (1 + T t) (Born and Wolf, "Principles of Optics",
- * 1.6, without interference). A rough surface that is seen at a grazing angle shows the facets that are turned to the eye: where slopes
- * have a Gaussian distribution of roughness a (Beckmann's), the mean cosine of those that are seen is E(p^2)/E(p) = sqrt(pi) a/2 edge-on, over
- * slopes p > 0; straight on it is 1. The mirror sees boxes and room, blurred by the roughness, with dark behind the skin, or
- * a grazing view would be as bright as glass. Inside a closed skin it sees them through the other wall.
+ * A slab of index 1.52, exactly: Fresnel's F at either surface, Snell's angle inside, Beer and Lambert
+ * along the path, and all inner reflections summed: T = (1 - F)^2 t / (1 - F^2 t^2), R = F (1 + T t) (Born
+ * and Wolf, "Principles of Optics", 1.6, without interference). A rough surface that is seen at a grazing
+ * angle shows the facets that are turned to the eye: where slopes have a Gaussian distribution of
+ * roughness a (Beckmann's), the mean cosine of those that are seen is E(p^2)/E(p) = sqrt(pi) a/2 edge-on,
+ * over slopes p > 0; straight on it is 1. The mirror sees boxes and room, blurred by the roughness, with
+ * dark behind the skin, or a grazing view would be as bright as glass. Inside a closed skin it sees them
+ * through the other wall.
  */
 #define LATEX                                                                                              \
     "in vec3 skin_normal, skin_to_eye, skin_depth, skin_outside, skin_inside;\n"                           \
@@ -187,8 +190,8 @@ const char shader_latex_vertex[] =
     "    passing = vec4(passes, 0.0);\n"                  \
     "}\n"
 
-/* The farthest layer before the one that was taken last (Everitt, "Interactive order-independent transparency",
- * 2001, from behind). */
+/* The farthest layer before the one that was taken last (Everitt, "Interactive order-independent
+ * transparency", 2001, from behind). */
 #define PEELED                                                                    \
     "uniform sampler2D taken;\n"                                                  \
     "layout(location = 0) out vec4 light;\n"                                      \
@@ -203,9 +206,9 @@ const char shader_latex_vertex[] =
     "    passing = vec4(passes, 0.0);\n"                                          \
     "}\n"
 
-/* Each pixel's fragments go into a linked list (Yang, Hensley, Gruen and Thibieroz, "Real-time concurrent linked list construction on
- * the GPU", 2010): five words each, in half precision but for the distance. More than there is room for are only
- * counted. */
+/* Each pixel's fragments go into a linked list (Yang, Hensley, Gruen and Thibieroz, "Real-time concurrent
+ * linked list construction on the GPU", 2010): five words each, in half precision but for the distance. More
+ * than there is room for are only counted. */
 #define LISTED                                                                             \
     "layout(early_fragment_tests) in;\n"                                                   \
     "layout(std430, binding = 0) buffer Heads { uint used; uint head[]; };\n"              \

@@ -2,7 +2,8 @@
 #ifndef RENDER_SHADERS_STUDIO_H
 #define RENDER_SHADERS_STUDIO_H
 
-/* The light of the studio on a matte surface, with what comes through it from behind, and film; see the skin. */
+/* The light of the studio on a matte surface, with what comes through it from behind,
+ * and film; see the skin. */
 #define STUDIO                                                                             \
     "const vec3 key = vec3(-0.5926, 0.6308, 0.5009);\n"                                    \
     "float body_light(vec3 n, float thinness)\n"                                           \

@@ -1,4 +1,5 @@
-/* Keeps the blocks of a solid: found by a hash table, each with its faces in a buffer on the graphics card. */
+/* Keeps the blocks of a solid: found by a hash table, each with its faces in a
+ * buffer on the graphics card. */
 #include "common/array.h"
 #include "render/parts.h"
 #include "render/shaders.h"

@@ -1,6 +1,6 @@
 /*
- * A sculpture of cubes on the graphics card: square faces in blocks, each of which is replaced as a whole when
- * something in it changes. It is drawn by render_draw_scene() and render_show().
+ * A sculpture of cubes on the graphics card: square faces in blocks, each of which is replaced as a whole
+ * when something in it changes. It is drawn by render_draw_scene() and render_show().
  *
  *     struct render_solid *solid;
  *     if (render_solid_new(render, origin, 1.0 / 256, &solid, err)) ...
@@ -26,14 +26,14 @@ struct render_face {
     int8_t normal[3];   /* of the smooth surface there, any length; 0, 0, 0: that of the side */
 };
 
-/* An empty solid whose cell 0, 0, 0 begins at `origin`, each cell `cell` wide. Errors: STATUS_RANGE for a cell
- * or origin that is no number, STATUS_NO_MEMORY. */
+/* An empty solid whose cell 0, 0, 0 begins at `origin`, each cell `cell` wide. Errors: STATUS_RANGE for a
+ * cell or origin that is no number, STATUS_NO_MEMORY. */
 enum status render_solid_new(struct render *render, const double origin[3], double cell,
                              struct render_solid **solid, struct error *err);
 
-/* Makes these the faces of the block with this key (any number; octree_key() or an index will do); with count 0
- * the block is gone. The faces are copied. Corner + size must not pass 65535. Errors: STATUS_RANGE naming the
- * face, STATUS_NO_MEMORY; then the block is as it was. */
+/* Makes these the faces of the block with this key (any number; octree_key() or an index will do); with count
+ * 0 the block is gone. The faces are copied. Corner + size must not pass 65535. Errors: STATUS_RANGE naming
+ * the face, STATUS_NO_MEMORY; then the block is as it was. */
 enum status render_solid_set(struct render_solid *solid, uint64_t block, const struct render_face *faces,
                              size_t count, struct error *err);
 

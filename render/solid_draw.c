@@ -73,7 +73,8 @@ static bool out_of_sight(const struct solid_block *block, const float m[16])
     return false;
 }
 
-/* The runs of sides that may face an eye at this place, in cells. Returns how many; neighbours are one run. */
+/* The runs of sides that may face an eye at this place, in cells. Returns how many;
+ * neighbours are one run. */
 static int facing_runs(const struct solid_block *block, const double eye[3], GLsizei count[6],
                        const void *offset[6])
 {

@@ -1,4 +1,5 @@
-/* One skin, standing on the floor, seen a little from the right and above: what a program shows of its result. */
+/* One skin, standing on the floor, seen a little from the right and above: what a
+ * program shows of its result. */
 #include "render/render.h"
 
 #include <math.h>

@@ -29,8 +29,8 @@ enum window_modifier { WINDOW_SHIFT = 1, WINDOW_CTRL = 2, WINDOW_ALT = 4 };
 enum window_button { WINDOW_LEFT, WINDOW_MIDDLE, WINDOW_RIGHT };
 
 /* A key is the character it writes (with shift: 'Z', '?'; with ctrl the small letter: 'z' for ctrl-z), one of
- * these characters, or a special key. X cannot tell ctrl with backspace, tab, enter, escape and delete from ctrl
- * with h, i, m, 3 and 8: they come as those. */
+ * these characters, or a special key. X cannot tell ctrl with backspace, tab, enter, escape and delete from
+ * ctrl with h, i, m, 3 and 8: they come as those. */
 enum window_key {
     WINDOW_BACKSPACE = 8,
     WINDOW_TAB = 9,
@@ -90,14 +90,15 @@ void window_timer(struct window *window, int milliseconds);
 void window_title(struct window *window, const char *title);
 void window_size(const struct window *window, int *width, int *height);
 
-/* True where each eye has a buffer of its own to show, in turn: quad-buffered stereo (render.h: RENDER_QUAD). */
+/* True where each eye has a buffer of its own to show, in turn: quad-buffered stereo
+ * (render.h: RENDER_QUAD). */
 bool window_has_quad(const struct window *window);
 
 /* Calls draw() and copies the window's picture into *image, which is resized. Errors: STATUS_NO_MEMORY. */
 enum status window_screenshot(struct window *window, struct image *image, struct error *err);
 
-/* Inside of render: makes the window's context current, anew where an off-screen one has been in between, and finds
- * OpenGL's functions there. */
+/* Inside of render: makes the window's context current, anew where an off-screen one has been in between, and
+ * finds OpenGL's functions there. */
 void window_use(struct window *window, bool anew);
 void (*window_function(const char *name))(void);
 

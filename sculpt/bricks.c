@@ -53,9 +53,9 @@ static void mark_cells(struct brick_cells *cells, const struct octree *tree, con
     octree_visit(tree, low, high, mark_leaf, cells);
 }
 
-/* The exposed cells of a brick on one side, layer by layer along the side's axis: a bit a cell of a row. Rows of bits
- * are along x, but along y where the side looks along x; the rows follow each other along z, but along y where it
- * looks along z. */
+/* The exposed cells of a brick on one side, layer by layer along the side's axis: a bit a cell of a row. Rows
+ * of bits are along x, but along y where the side looks along x; the rows follow each other along z, but
+ * along y where it looks along z. */
 struct brick_layers {
     int side, along, across; /* the axes of bits and of rows */
     uint32_t row[BRICK_SIDE][BRICK_SIDE];

@@ -24,8 +24,8 @@ static void snap(const struct session *session, double place[3])
         place[i] = (floor(place[i] * side) + 0.5) / side;
 }
 
-/* Under the point that is hit, and out of the face there. Snapped, it begins from the middle of the cell that is hit or, to
- * fill, of the one before it: on the face between them rounding would choose. */
+/* Under the point that is hit, and out of the face there. Snapped, it begins from the middle of the cell that
+ * is hit or, to fill, of the one before it: on the face between them rounding would choose. */
 static void place_brush(struct session *session)
 {
     const double half_cell = 0.5 / (1 << session->tree.depth);
@@ -42,7 +42,8 @@ static void place_brush(struct session *session)
         snap(session, session->middle);
 }
 
-/* A stroke keeps to the plane through its beginning that faces the eye: it sweeps, and does not dig itself in. */
+/* A stroke keeps to the plane through its beginning that faces the eye: it sweeps, and
+ * does not dig itself in. */
 static void move_stroke(struct session *session)
 {
     double to_plane[3];

@@ -12,9 +12,9 @@
  *     history_undo(&history, &tree, &regions);
  *     history_clear(&history);
  *
- * A step keeps the nodes that it replaced, so it costs as much memory as it changed, and taking it back is faster
- * than it was to make. Between steps nobody else may change the tree; where it is replaced by another (opened,
- * imported), the history is cleared.
+ * A step keeps the nodes that it replaced, so it costs as much memory as it changed, and taking it back is
+ * faster than it was to make. Between steps nobody else may change the tree; where it is replaced by another
+ * (opened, imported), the history is cleared.
  */
 #ifndef SCULPT_HISTORY_H
 #define SCULPT_HISTORY_H
@@ -37,8 +37,8 @@ struct history {
     struct octree_tape tape;
 };
 
-/* An empty history that keeps at most byte_limit bytes of steps (beside one step being recorded, which is held
- * twice for a moment). */
+/* An empty history that keeps at most byte_limit bytes of steps (beside one step being recorded, which is
+ * held twice for a moment). */
 void history_init(struct history *history, size_t byte_limit);
 
 /* Forgets all steps and gives their memory back; the limit stays. */
@@ -47,14 +47,14 @@ void history_clear(struct history *history);
 /* Begins a step. Only changes until its end may be undone. */
 void history_begin(struct history *history, struct octree *tree);
 
-/* Ends a step: it can be undone, and what was undone before can no longer be redone. Steps that changed nothing are
- * not kept. Drops the oldest steps while there are more bytes than the limit. False when the step alone is larger
- * than that, or memory is not enough to keep it: then it is done, and nothing can be undone any more. *regions,
- * unless NULL, says where cells changed. */
+/* Ends a step: it can be undone, and what was undone before can no longer be redone. Steps that changed
+ * nothing are not kept. Drops the oldest steps while there are more bytes than the limit. False when the step
+ * alone is larger than that, or memory is not enough to keep it: then it is done, and nothing can be undone
+ * any more. *regions, unless NULL, says where cells changed. */
 bool history_end(struct history *history, struct octree *tree, struct octree_regions *regions);
 
-/* Takes back what was done since the beginning of a step, and forgets it. False when the step was too large to be
- * recorded: then the tree stays as it has become, and the history is empty. */
+/* Takes back what was done since the beginning of a step, and forgets it. False when the step was too large
+ * to be recorded: then the tree stays as it has become, and the history is empty. */
 bool history_cancel(struct history *history, struct octree *tree);
 
 /* Takes back the last step that is done; does again the one taken back last. False when there is none. */

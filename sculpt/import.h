@@ -6,10 +6,10 @@
 
 bool sculpt_import_is_name(const char *path);
 
-/* Reads a model whose name sculpt_import_is_name() knows; a mesh into 2^depth cells a side. *report is {0} for a .vox.
- * Sets *hollow to the number of cells that are empty but enclosed: models are often shells, and a shell makes a balloon
- * inside a balloon. *tree (valid; it is replaced) is as it was after a failure. Errors: those of vox_load() and
- * voxelise_load(). */
+/* Reads a model whose name sculpt_import_is_name() knows; a mesh into 2^depth cells a side. *report is {0}
+ * for a .vox. Sets *hollow to the number of cells that are empty but enclosed: models are often shells, and a
+ * shell makes a balloon inside a balloon. *tree (valid; it is replaced) is as it was after a failure. Errors:
+ * those of vox_load() and voxelise_load(). */
 enum status sculpt_import(const char *path, unsigned depth, struct octree *tree,
                           struct voxelise_report *report, uint64_t *hollow, struct error *err);
 

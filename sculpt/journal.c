@@ -47,7 +47,8 @@ enum status journal_is_left(const char *path, bool *left, struct error *err)
     return status;
 }
 
-/* True when the name still leads to the file: its last owner may have removed it while we waited to open it. */
+/* True when the name still leads to the file: its last owner may have removed it
+ * while we waited to open it. */
 static bool is_still(int file, const char *path)
 {
     struct stat opened, named;
@@ -124,7 +125,8 @@ static enum status copy_file(const struct bytes *file, const char *to, struct er
     return file_out_commit(out, err);
 }
 
-/* Keeps the file that the journal begins from: a save puts another in its place but leaves this one's other link. */
+/* Keeps the file that the journal begins from: a save puts another in its place but leaves
+ * this one's other link. */
 static enum status keep_base(struct journal *journal, const char *path, struct journal_start *start,
                              struct error *err)
 {

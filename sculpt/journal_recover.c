@@ -21,8 +21,8 @@ struct recovery {
     bool exists, is_base, is_whole; /* the file `path`: is there, is the base itself, could be read */
 };
 
-/* Loads `path` when its hash is the one that the journal begins from; *found says whether it is. Not to be there is no
- * error. */
+/* Loads `path` when its hash is the one that the journal begins from; *found says whether it is. Not
+ * to be there is no error. */
 static enum status load_base(struct recovery *recovery, const char *path, bool *found, struct error *err)
 {
     struct bytes file = {0};
@@ -116,8 +116,8 @@ static size_t last_mark(const struct recovery *recovery, size_t limit)
     return last;
 }
 
-/* The sculpture's file must be what the journal begins from, or what it had led to when a save began; the last such
- * save is the likeliest. A file that is damaged cannot be told, and stands in nobody's way. */
+/* The sculpture's file must be what the journal begins from, or what it had led to when a save began; the
+ * last such save is the likeliest. A file that is damaged cannot be told, and stands in nobody's way. */
 static enum status check_saved(const struct recovery *recovery, struct error *err)
 {
     if (!recovery->is_whole || recovery->is_base || octree_equal(&recovery->saved, &recovery->begun))

@@ -6,7 +6,8 @@
 
 enum { SPAN = 2 * NORMALS_REACH + 1 };
 
-/* Of a row of SPAN cells, by its bits: the sum of the weights of those that are full, and of weight times place. */
+/* Of a row of SPAN cells, by its bits: the sum of the weights of those that are full, and
+ * of weight times place. */
 struct row_sums {
     float weight, moment;
 };

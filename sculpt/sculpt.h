@@ -8,8 +8,8 @@
  *     if (chips_run(&tree, &chips, NULL, err)) ...
  *     chips_clear(&chips);
  *
- * Coordinates are those of the octree's cube [0,1]^3: x right, y up, z towards the viewer. A cell belongs to a
- * shape when its centre does. Shapes may reach out of the cube, or lie outside altogether.
+ * Coordinates are those of the octree's cube [0,1]^3: x right, y up, z towards the viewer. A cell belongs to
+ * a shape when its centre does. Shapes may reach out of the cube, or lie outside altogether.
  */
 #ifndef SCULPT_SCULPT_H
 #define SCULPT_SCULPT_H
@@ -36,10 +36,11 @@ enum { CHIP_VALUES_MAX = 8 };
 #define CHIP_VALUE_MAX  1e6
 #define CHIP_LENGTH_MIN 1e-9
 
-/* What an operation does. Sandpaper and heat are tools of Galyean and Hughes, "Sculpting: an interactive volumetric
- * modeling technique", SIGGRAPH 1991: within a ball, x y z r, the one takes away what stands out (a cell is kept that
- * has 14 full ones, half of them, among the 27 around it, itself included), the other every cell with an exposed
- * face. Both decide from the sculpture before the operation, mirror images included; beyond the cube all is empty. */
+/* What an operation does. Sandpaper and heat are tools of Galyean and Hughes, "Sculpting: an interactive
+ * volumetric modeling technique", SIGGRAPH 1991: within a ball, x y z r, the one takes away what stands out
+ * (a cell is kept that has 14 full ones, half of them, among the 27 around it, itself included), the other
+ * every cell with an exposed face. Both decide from the sculpture before the operation, mirror images
+ * included; beyond the cube all is empty. */
 enum chip_kind {
     CHIP_CARVE, /* what the shape covers becomes this material (0 takes it away) */
     CHIP_SANDPAPER,
@@ -50,8 +51,8 @@ enum chip_kind {
     CHIP_KINDS,
 };
 
-/* Bits of struct chip's mirror: the operation is done with its images about the middle planes x = 1/2, y = 1/2,
- * z = 1/2 (one, three or seven of them), as one. */
+/* Bits of struct chip's mirror: the operation is done with its images about the middle planes x = 1/2, y =
+ * 1/2, z = 1/2 (one, three or seven of them), as one. */
 enum { CHIP_MIRROR_X = 1, CHIP_MIRROR_Y = 2, CHIP_MIRROR_Z = 4 };
 
 /* One operation. */
@@ -71,16 +72,17 @@ struct chip_shape_name {
 extern const struct chip_shape_name chip_shape_names[CHIP_SHAPES];
 extern const struct chip_shape_name chip_kind_names[CHIP_KINDS]; /* the first is of no use */
 
-/* Refuses (STATUS_RANGE) what is no shape: values that are not finite or beyond CHIP_VALUE_MAX; radii, sides of
- * a box, axes (but a capsule's) and normals shorter than CHIP_LENGTH_MIN. */
+/* Refuses (STATUS_RANGE) what is no shape: values that are not finite or beyond CHIP_VALUE_MAX; radii, sides
+ * of a box, axes (but a capsule's) and normals shorter than CHIP_LENGTH_MIN. */
 enum status chip_check(const struct chip *chip, struct error *err);
 
-/* The operation's image about the middle planes of these axes (bits as in `mirror`; 0: about none), without further
- * mirroring. */
+/* The operation's image about the middle planes of these axes (bits as in `mirror`; 0: about none),
+ * without further mirroring. */
 struct chip chip_image(const struct chip *chip, unsigned axes);
 
-/* Does one operation, which chip_check() accepts, with its mirror images. A step, undo and redo do nothing here:
- * see chips_run(). Errors: STATUS_NO_MEMORY, with the tree whole but the operation perhaps done in part. */
+/* Does one operation, which chip_check() accepts, with its mirror images. A step, undo and redo
+ * do nothing here: see chips_run(). Errors: STATUS_NO_MEMORY, with the tree whole but the
+ * operation perhaps done in part. */
 enum status sculpt_chip(struct octree *tree, const struct chip *chip, struct error *err);
 
 /* A script. Lines hold one of these; words are parted by spaces, # begins a comment:
@@ -120,14 +122,15 @@ enum status chips_parse(const char *name, const void *text, size_t size, struct 
 
 struct history;
 
-/* Does all operations of a script. What it takes back for good is not done in the first place. With a history (see
- * sculpt/history.h) the steps that remain can be undone afterwards; what the script ends by taking back cannot be
- * redone. Errors: STATUS_NO_MEMORY, with the tree whole and the operations before the failed one done. */
+/* Does all operations of a script. What it takes back for good is not done in the first place. With a
+ * history (see sculpt/history.h) the steps that remain can be undone afterwards; what the script ends
+ * by taking back cannot be redone. Errors: STATUS_NO_MEMORY, with the tree whole and the operations
+ * before the failed one done. */
 enum status chips_run(struct octree *tree, const struct chips *chips, struct history *history,
                       struct error *err);
 
-/* Makes *kept (valid; it is replaced) the same script without what it takes back and without steps, undo and redo:
- * it makes an equal octree. Errors: STATUS_NO_MEMORY; then *kept is as it was. */
+/* Makes *kept (valid; it is replaced) the same script without what it takes back and without steps, undo and
+ * redo: it makes an equal octree. Errors: STATUS_NO_MEMORY; then *kept is as it was. */
 enum status chips_keep(const struct chips *chips, struct chips *kept, struct error *err);
 
 /* What a line of a script means depends on lines before it: the material and the mirror. */
@@ -150,11 +153,11 @@ void chips_set_coefficients(const struct chips *chips, struct octree *tree);
 enum status chips_save(const struct octree *tree, const char *path, struct error *err);
 
 /* Reads a MagicaVoxel model (versions 150 and 200): every model of the file, moved and turned as its scene
- * graph says, hidden parts left out; of an animation the first frame. Its z is up, so (x, y, z) becomes
- * (x, z, -y): turned upright, not mirrored. The model stands in the middle of the smallest cube that leaves a
+ * graph says, hidden parts left out; of an animation the first frame. Its z is up, so (x, y, z) becomes (x,
+ * z, -y): turned upright, not mirrored. The model stands in the middle of the smallest cube that leaves a
  * cell free all around it, and colour numbers become materials. *tree must be valid and is replaced, or as it
- * was after a failure. Errors: STATUS_FILE; STATUS_INPUT with the chunk and its place; STATUS_RANGE for a model
- * of more than 1022 cells a side; STATUS_NO_MEMORY. */
+ * was after a failure. Errors: STATUS_FILE; STATUS_INPUT with the chunk and its place; STATUS_RANGE for a
+ * model of more than 1022 cells a side; STATUS_NO_MEMORY. */
 enum status vox_load(const char *path, struct octree *tree, struct error *err);
 
 /* Writes the cells within the sculpture's bounds as a MagicaVoxel model; above 256 cells a side as several
@@ -162,10 +165,10 @@ enum status vox_load(const char *path, struct octree *tree, struct error *err);
  * can count; STATUS_FILE; STATUS_NO_MEMORY. */
 enum status vox_save(const struct octree *tree, const char *path, struct error *err);
 
-/* The exposed faces of the sculpture as triangles, counter-clockwise seen from outside, points shared: squares
- * all of the size of the smallest exposed face, so that the mesh has no cracks. (Where cubes touch in an edge
- * only, four triangles share it.) *mesh is overwritten; it is as it was after a failure. Errors: STATUS_RANGE
- * for an empty sculpture or more faces than a mesh holds, STATUS_NO_MEMORY. */
+/* The exposed faces of the sculpture as triangles, counter-clockwise seen from outside, points shared:
+ * squares all of the size of the smallest exposed face, so that the mesh has no cracks. (Where cubes touch in
+ * an edge only, four triangles share it.) *mesh is overwritten; it is as it was after a failure. Errors:
+ * STATUS_RANGE for an empty sculpture or more faces than a mesh holds, STATUS_NO_MEMORY. */
 enum status sculpt_faces(const struct octree *tree, struct mesh *mesh, struct error *err);
 
 #endif

@@ -154,8 +154,8 @@ static enum status sweep(struct session *session, struct error *err)
     return operate(session, &chip, err);
 }
 
-/* The plane through the eye and both ends of the dragged line; its right-hand side goes. A line without length cuts
- * nothing. */
+/* The plane through the eye and both ends of the dragged line; its right-hand side goes. A line
+ * without length cuts nothing. */
 static enum status cut(struct session *session, struct error *err)
 {
     struct chip chip = {.shape = CHIP_HALF_SPACE, .material = session->fill ? session->material : 0};
@@ -189,7 +189,8 @@ enum status session_press(struct session *session, struct error *err)
     return use_tool(session, err);
 }
 
-/* A stroke goes on, sandpaper and heat rub on where they meet the sculpture; other tools do their work at one press. */
+/* A stroke goes on, sandpaper and heat rub on where they meet the sculpture; other tools do
+ * their work at one press. */
 enum status session_drag(struct session *session, struct error *err)
 {
     const bool moved = memcmp(&session->used, &session->ray, sizeof session->ray) != 0;

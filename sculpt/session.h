@@ -1,6 +1,6 @@
 /*
- * Sculpting by hand, without a window: the sculpture, its tools, its history and its files. A window hands rays and
- * keys in and draws what it finds here; whatever a hand does becomes operations of a chip script.
+ * Sculpting by hand, without a window: the sculpture, its tools, its history and its files. A window hands
+ * rays and keys in and draws what it finds here; whatever a hand does becomes operations of a chip script.
  *
  *     struct session session = {0};
  *     if (session_open(&session, "fox.oct", 6, &err)) ...
@@ -78,18 +78,20 @@ struct session {
 
 enum { SESSION_HISTORY_BYTES = 256 << 20 };
 
-/* Opens path, or begins a full cube of this depth where there is no such file yet. Where a journal of a program that was
- * killed is left, its work is taken up with `recover`, and forgotten without. Errors: those of octree_load(), and of the
- * journal where another program has it open or its work cannot be taken up. On failure *session is empty. */
+/* Opens path, or begins a full cube of this depth where there is no such file yet. Where a journal of a
+ * program that was killed is left, its work is taken up with `recover`, and forgotten without. Errors: those
+ * of octree_load(), and of the journal where another program has it open or its work cannot be taken up. On
+ * failure *session is empty. */
 enum status session_open(struct session *session, const char *path, unsigned depth, bool recover,
                          struct error *err);
 
-/* Begins with this tree, which has no file yet (imported) and is to become `path`: unsaved work, with a journal. The tree
- * is taken over, and {0} then. Errors: STATUS_FILE when there is such a file, and those of session_open(); then
- * *session is empty and the tree is the caller's. */
+/* Begins with this tree, which has no file yet (imported) and is to become `path`: unsaved work, with a
+ * journal. The tree is taken over, and {0} then. Errors: STATUS_FILE when there is such a file, and those of
+ * session_open(); then *session is empty and the tree is the caller's. */
 enum status session_begin(struct session *session, const char *path, struct octree *tree, struct error *err);
 
-/* Steps are kept for undo up to this many bytes (SESSION_HISTORY_BYTES unless this is called); those there are go. */
+/* Steps are kept for undo up to this many bytes (SESSION_HISTORY_BYTES unless this is
+ * called); those there are go. */
 void session_limit_undo(struct session *session, size_t bytes);
 
 /* Frees it, waiting for what is being written; the journal is removed: what was not saved is not wanted. */
@@ -113,20 +115,23 @@ bool session_redo(struct session *session, struct error *err);
 void session_resize_brush(struct session *session, int steps);
 void session_sink_brush(struct session *session, int steps);
 
-/* Saving and exporting write a snapshot on a thread of its own, while carving goes on. One at a time. Each begins with
+/* Saving and exporting write a snapshot on a thread of its own, while carving goes on. One at a
+ * time. Each begins with
  *
  *     session_save_begin(&session, NULL, &png, &err);        to session->path; with a name: under that one
  *     session_export_begin(&session, "fox.vox", &err);       a name that sculpt_export_is_name() knows
  *
- * and ends when session_write_ended() has said so. `preview` is a PNG's bytes, taken over, or NULL. A name that another
- * program is carving is refused with STATUS_RESOURCE. Errors: STATUS_FILE, STATUS_NO_MEMORY; then nothing was begun. */
+ * and ends when session_write_ended() has said so. `preview` is a PNG's bytes, taken over, or NULL. A name
+ * that another program is carving is refused with STATUS_RESOURCE. Errors: STATUS_FILE, STATUS_NO_MEMORY;
+ * then nothing was begun. */
 enum status session_save_begin(struct session *session, const char *path, struct bytes *preview,
                                struct error *err);
 enum status session_export_begin(struct session *session, const char *path, struct error *err);
 
-/* True, once, when what was begun has been written, or has failed: then *status says how, and the old file, the journal
- * and the session are as they were. Under a new name the session is that file's from then on, its journal too. What was
- * carved meanwhile is unsaved work. With `wait` it returns when that is so. False when nothing was begun. */
+/* True, once, when what was begun has been written, or has failed: then *status says how, and the old file,
+ * the journal and the session are as they were. Under a new name the session is that file's from then on,
+ * its journal too. What was carved meanwhile is unsaved work. With `wait` it returns when that is so. False
+ * when nothing was begun. */
 bool session_write_ended(struct session *session, bool wait, enum status *status, struct error *err);
 
 /* Both in one, under session->path or another name. */
@@ -137,8 +142,8 @@ enum status session_save_as(struct session *session, const char *path, struct by
 /* Hands over, and forgets, where cells changed. */
 void session_take_changes(struct session *session, struct octree_regions *regions);
 
-/* The brush as line segments, in units of the cube: what the next press would touch, mirror images included. Returns how
- * many there are, at most `most`. */
+/* The brush as line segments, in units of the cube: what the next press would touch, mirror images included.
+ * Returns how many there are, at most `most`. */
 size_t session_outline(const struct session *session, double segments[][2][3], size_t most);
 
 #endif

@@ -15,8 +15,8 @@ static void everything_changed(struct session *session)
     octree_regions_add(&session->changed, &(struct octree_region){{0, 0, 0}, {last, last, last}});
 }
 
-/* What the file carries becomes the session's: its chip log, and what is not known here. The preview is made anew with
- * each save. */
+/* What the file carries becomes the session's: its chip log, and what is not known here. The preview is
+ * made anew with each save. */
 static enum status keep_chunks(struct session *session, struct octree_chunks *chunks, struct error *err)
 {
     for (size_t i = 0; i < chunks->count; i++) {
@@ -47,8 +47,8 @@ static enum status load(struct session *session, struct error *err)
     return status;
 }
 
-/* Takes up the work of a program that was killed. What the journal leads to is newer than the file, where that can be
- * read at all. */
+/* Takes up the work of a program that was killed. What the journal leads to is newer than the file, where
+ * that can be read at all. */
 static enum status recover_work(struct session *session, struct error *err)
 {
     struct journal_report report;

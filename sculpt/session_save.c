@@ -143,8 +143,8 @@ enum status session_export_begin(struct session *session, const char *path, stru
     return STATUS_OK;
 }
 
-/* The journal goes along, with the steps before that can still be undone. Without one a new one begins, and undo with it:
- * what it does not hold it cannot take back. */
+/* The journal goes along, with the steps before that can still be undone. Without one a new one begins, and
+ * undo with it: what it does not hold it cannot take back. */
 static enum status rename_session(struct session *session, struct session_save *save, struct error *err)
 {
     enum status status = session->journal ? journal_move(session->journal, save->path, err) : STATUS_OK;

@@ -1,9 +1,10 @@
 /*
- * How each shape covers a cube. What matters are the centres of the finest cells in the cube, so the question
- * is put to the box that they span. The answers for box, ball and half-space are exact even in floating point:
- * the sum that decides for a centre is taken at the nearest and the farthest place of that box, and rounding
- * never reverses the order of two sums of the same form. Round shapes about an axis use a distance at the
- * middle of the box, which changes by no more than `steepness` a unit of length; what that leaves open is split.
+ * How each shape covers a cube. What matters are the centres of the finest cells in the cube, so the
+ * question is put to the box that they span. The answers for box, ball and half-space are exact even in
+ * floating point: the sum that decides for a centre is taken at the nearest and the farthest place of that
+ * box, and rounding never reverses the order of two sums of the same form. Round shapes about an axis use
+ * a distance at the middle of the box, which changes by no more than `steepness` a unit of length; what
+ * that leaves open is split.
  */
 #include "sculpt/shapes.h"
 
@@ -172,10 +173,10 @@ static struct octree_cover cone_covers(const void *context, const double corner[
     return cover;
 }
 
-/* Distance to the swept sphere's skin, negative inside: the least over the axis of (distance to the place u of
- * the axis) - (radius there). For r(u) = r + s u its derivative is zero where (along - u)/distance = -s, so
- * u = along + off s / sqrt(1 - s^2); the function is convex, so a u beyond an end means that end. Where one
- * end's sphere holds the other's (|s| >= 1) the least is at an end too. */
+/* Distance to the swept sphere's skin, negative inside: the least over the axis of (distance to the place u
+ * of the axis) - (radius there). For r(u) = r + s u its derivative is zero where (along - u)/distance = -s,
+ * so u = along + off s / sqrt(1 - s^2); the function is convex, so a u beyond an end means that end. Where
+ * one end's sphere holds the other's (|s| >= 1) the least is at an end too. */
 static inline double capsule_distance(const struct shape *shape, double along, double off)
 {
     double u = lesser(greater(along + off * shape->lean + shape->push, 0), shape->length);

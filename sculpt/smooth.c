@@ -1,7 +1,7 @@
 /*
- * Sandpaper and heat. The sculpture is taken in tiles of 32 cells a side, each with the cells around it, a bit a cell
- * and a word a row, so that one row is decided about at once. What goes is noted for all tiles first and then taken
- * away: so no cell is decided about by what has gone already.
+ * Sandpaper and heat. The sculpture is taken in tiles of 32 cells a side, each with the cells around it, a
+ * bit a cell and a word a row, so that one row is decided about at once. What goes is noted for all tiles
+ * first and then taken away: so no cell is decided about by what has gone already.
  */
 #include "sculpt/smooth.h"
 
@@ -68,8 +68,8 @@ static uint64_t exposed(const struct window *window, int z, int y)
                    window->row[z - 1][y] & window->row[z + 1][y]);
 }
 
-/* Full cells that have fewer than 14 full ones among the 27 around them, of one row. All are counted at once, in
- * binary: bit x of digit[d] is worth 2^d for cell x. */
+/* Full cells that have fewer than 14 full ones among the 27 around them, of one row. All are counted at once,
+ * in binary: bit x of digit[d] is worth 2^d for cell x. */
 static uint64_t standing_out(const struct window *window, int z, int y)
 {
     uint64_t digit[5] = {0}, row = window->row[z][y];

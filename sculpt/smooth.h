@@ -13,8 +13,8 @@ struct smooth_balls {
     int count;
 };
 
-/* Takes away the cells in the balls that stand out (CHIP_SANDPAPER) or are exposed (CHIP_HEAT), as they are before
- * the call. Errors: STATUS_NO_MEMORY, with the tree whole but perhaps smoothed in part. */
+/* Takes away the cells in the balls that stand out (CHIP_SANDPAPER) or are exposed (CHIP_HEAT), as they are
+ * before the call. Errors: STATUS_NO_MEMORY, with the tree whole but perhaps smoothed in part. */
 enum status smooth(struct octree *tree, enum chip_kind kind, const struct smooth_balls *balls,
                    struct error *err);
 

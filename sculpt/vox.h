@@ -1,5 +1,5 @@
-/* Inside the sculptor: a MagicaVoxel file taken apart, between vox_parse.c (chunks), vox_scene.c (where models
- * stand) and vox.c (cells).
+/* Inside the sculptor: a MagicaVoxel file taken apart, between vox_parse.c (chunks), vox_scene.c (where
+ * models stand) and vox.c (cells).
  *
  * The format: https://github.com/ephtracy/voxel-model, MagicaVoxel-file-format-vox.txt and
  * MagicaVoxel-file-format-vox-extension.txt. All numbers are little endian. */

@@ -23,8 +23,8 @@ static struct vox_pose compose(const struct vox_pose *outer, const struct vox_po
     return both;
 }
 
-/* A voxel's middle is half a cell off its corner, so this counts in half cells: an odd number of them, which a
- * shift to the right rounds down to the cell. */
+/* A voxel's middle is half a cell off its corner, so this counts in half cells: an odd number of them, which
+ * a shift to the right rounds down to the cell. */
 void vox_voxel_place(const struct vox_model *model, const struct vox_pose *pose, const unsigned char voxel[3],
                      int64_t place[3])
 {

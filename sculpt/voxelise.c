@@ -7,8 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A mesh is too open when its undecided cells are more than this part of those inside; see struct voxelise_report. A
- * ball with a tenth of its triangles missing has 0.006, with a fifth 0.03; half a ball without its cut has 0.5. */
+/* A mesh is too open when its undecided cells are more than this part of those inside; see struct
+ * voxelise_report. A ball with a tenth of its triangles missing has 0.006, with a fifth 0.03; half a ball
+ * without its cut has 0.5. */
 #define UNDECIDED_MAX 0.2
 
 /* Cells as bits in Morton order, so that any node of the octree is a run of them. */
@@ -19,7 +20,8 @@ struct grid {
     uint32_t *spread; /* [side] the bits of a coordinate, each with two places after it */
 };
 
-/* Lines along x and y of one slab of cells with the same z, and the state of the lines along z that pass it. */
+/* Lines along x and y of one slab of cells with the same z, and the state of the
+ * lines along z that pass it. */
 struct slab {
     const struct crossings *along; /* [3] */
     int side;
@@ -109,8 +111,8 @@ static struct octree_cover grid_covers(const void *shape, const double corner[3]
     return cover;
 }
 
-/* How many of the two rays along a line, backwards and forwards, say "inside": `behind` is what the crossings behind
- * sum up to and `total` all of them. Each is +1 on the way in. */
+/* How many of the two rays along a line, backwards and forwards, say "inside": `behind` is what the crossings
+ * behind sum up to and `total` all of them. Each is +1 on the way in. */
 static int line_votes(int behind, int total, bool parity)
 {
     if (parity)
@@ -200,7 +202,8 @@ static void vote(struct slab *slab, int z)
     vote_along_z(slab, z);
 }
 
-/* What the rays leave open, the solid angle decides; without a sense there is none, and half of the rays do. */
+/* What the rays leave open, the solid angle decides; without a sense there is none,
+ * and half of the rays do. */
 static enum status decide(struct job *job, int votes, bool parity, const int cell[3], bool *inside,
                           struct error *err)
 {

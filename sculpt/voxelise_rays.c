@@ -40,8 +40,8 @@ static void cells_between(int64_t low, int64_t high, int side, int *first, int *
     *last = to < -1 ? -1 : to >= side ? side - 1 : (int)to;
 }
 
-/* Narrows low .. high (u, in units) to where the point (u + e, v + e^2) lies on the left of the edge a b; false when
- * there is no such u. The edge function is (b - a) x (p - a) = k - (b.v - a.v) u. */
+/* Narrows low .. high (u, in units) to where the point (u + e, v + e^2) lies on the left of the edge a b;
+ * false when there is no such u. The edge function is (b - a) x (p - a) = k - (b.v - a.v) u. */
 static bool clip_to_edge(const struct corner *a, const struct corner *b, int64_t v, int64_t *low,
                          int64_t *high)
 {

@@ -1,4 +1,5 @@
-/* Generalised winding numbers over a tree of triangles: Barill et al. 2018, with the first term of their series. */
+/* Generalised winding numbers over a tree of triangles: Barill et al. 2018, with the
+ * first term of their series. */
 #include "sculpt/voxelise_parts.h"
 
 #include "common/array.h"
@@ -7,8 +8,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A node is seen as one triangle from further away than so many times its radius. Barill et al. take 2 with two more
- * terms; with one alone the error of a node falls with the square of this. */
+/* A node is seen as one triangle from further away than so many times its radius. Barill et al. take 2 with
+ * two more terms; with one alone the error of a node falls with the square of this. */
 #define FAR 3.0
 
 enum { LEAF_TRIANGLES = 8 };
@@ -56,7 +57,8 @@ static void measure(const struct winding *winding, struct node *node)
         }
 }
 
-/* Parts the node's triangles by the middle of their centroids' longest extent; false when that parts nothing. */
+/* Parts the node's triangles by the middle of their centroids' longest extent; false
+ * when that parts nothing. */
 static bool part(const struct winding *winding, const struct node *node, uint32_t *first_count)
 {
     uint32_t *order = winding->order + node->begin;

@@ -54,8 +54,8 @@ struct app {
 
     struct window *window;
     struct render *render;
-    struct window_level
-        levels[WINDOW_LEVELS_MAX]; /* [level_count] 0: every cell; 1: twice as large ones; ... */
+    /* [level_count] 0: every cell; 1: twice as large ones; ... */
+    struct window_level levels[WINDOW_LEVELS_MAX];
     struct window_level *shown;
     int level_count, coarser;
     bool fine;                /* the last frame showed all that can be told apart */
@@ -90,11 +90,12 @@ struct app {
     struct error failed; /* what ended the program */
 };
 
-/* window_files.c: opens the sculpture `path` in the place of the one that is there, with the work that a killed program
- * left or without. On failure everything is as it was. */
+/* window_files.c: opens the sculpture `path` in the place of the one that is there, with the work that a
+ * killed program left or without. On failure everything is as it was. */
 enum status app_open_session(struct app *app, const char *path, bool recover, struct error *err);
 
-/* Begins to save, under another name unless that is NULL. False when it could not be begun; it has been said why. */
+/* Begins to save, under another name unless that is NULL. False when it could not be
+ * begun; it has been said why. */
 bool app_save(struct app *app, const char *path);
 
 /* Looks whether what is being written has been: then it is said, and what waited for it is done. */
@@ -144,15 +145,15 @@ void app_draw(struct app *app);
 enum { WINDOW_TEXTS_MAX = 4 };
 size_t app_texts(const struct app *app, struct render_text texts[WINDOW_TEXTS_MAX]);
 
-/* window_bricks.c: brings the faces of a level up to date with the session's changes, for this long, and sets app->shown:
- * a coarser one where that was not enough. */
+/* window_bricks.c: brings the faces of a level up to date with the session's changes, for this long, and sets
+ * app->shown: a coarser one where that was not enough. */
 enum status app_update_solid(struct app *app, int level, double most_seconds, struct error *err);
 
 /* All faces are made anew when they are wanted. */
 void app_forget_faces(struct app *app);
 
-/* The finest level whose cells can be told apart, and what is drawn while the hand moves: app->coarser levels above,
- * which follows the time that the last such frame took. */
+/* The finest level whose cells can be told apart, and what is drawn while the hand moves: app->coarser levels
+ * above, which follows the time that the last such frame took. */
 int app_rest_level(const struct app *app);
 void app_adapt(struct app *app, int rest, double seconds);
 

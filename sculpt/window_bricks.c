@@ -10,12 +10,13 @@
 /* Of a cell at the nearest place of the cube: smaller ones are drawn as larger ones. */
 #define PIXELS_LEAST 0.7
 
-/* While the hand moves a frame slower than this is drawn with larger cells; quicker ones, four times as many faces, fit
- * again. */
+/* While the hand moves a frame slower than this is drawn with larger cells; quicker ones, four times as
+ * many faces, fit again. */
 #define SECONDS_SLOW  0.07
 #define SECONDS_QUICK 0.014
 
-/* Material 1 is clay; the others go round the circle of hues by the golden ratio, so that neighbours differ. */
+/* Material 1 is clay; the others go round the circle of hues by the golden ratio, so
+ * that neighbours differ. */
 static void colour_of(unsigned material, uint8_t colour[3])
 {
     static const uint8_t clay[3] = {205, 172, 139};
@@ -125,8 +126,8 @@ static void sort_waiting(const struct app *app, struct window_level *level)
     qsort(level->waiting.items, level->waiting.count, sizeof *level->waiting.items, farthest_first);
 }
 
-/* Puts the bricks of a region, in cells of the level, behind those that wait: they come first. One that waits twice is
- * made twice, which does no harm. */
+/* Puts the bricks of a region, in cells of the level, behind those that wait: they come first. One that waits
+ * twice is made twice, which does no harm. */
 static enum status add_region(const struct octree *tree, struct window_level *level,
                               const struct octree_region *region, struct error *err)
 {

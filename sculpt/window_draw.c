@@ -10,7 +10,8 @@ enum { LINES_MAX = 8 * 120 + 40, PREVIEW_WIDTH = 256, PREVIEW_HEIGHT = 192 };
 /* What a frame may take for bricks that changed, beside being drawn. */
 #define FRAME_SECONDS 0.02
 
-/* Outlines of a sculpture that rests are smooth, unless it has so many faces that the hand would wait for that. */
+/* Outlines of a sculpture that rests are smooth, unless it has so many faces that the
+ * hand would wait for that. */
 enum { FACES_SMOOTH = 150000 };
 
 static const float yellow[3] = {0.9f, 0.6f, 0.05f}, pale[3] = {0.75f, 0.75f, 0.72f},

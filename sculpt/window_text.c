@@ -89,7 +89,8 @@ static void wrap(char *text, int columns)
     }
 }
 
-/* A text that fits into the width of an eye's picture, at this height; from the lower border if that is negative. */
+/* A text that fits into the width of an eye's picture, at this height; from the lower
+ * border if that is negative. */
 static void add_text(const struct app *app, struct render_text *texts, size_t *count, char storage[TEXT_SIZE],
                      int x, int y, const float colour[3])
 {

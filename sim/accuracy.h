@@ -1,19 +1,20 @@
 /*
- * What accuracy costs on the user's own scene: every integrator over a ladder of steps or tolerances, its error and its price.
+ * What accuracy costs on the user's own scene: every integrator over a ladder of steps or tolerances,
+ * its error and its price.
  *
  *     struct accuracy_table table;
  *     if (accuracy_measure(&scene, meshes, &options, &table, err)) ...
  *     accuracy_fastest(&table, error, &method)
  *
- * A first run, by "auto", finds when the first edge lets go. Until shortly before, over the span, runs can be compared point by
- * point: with each other, and with two references of different families that know nothing of each other. Afterwards only the
- * mean of many runs says anything: an ensemble, which differs by 1e-9 of the radius at the start, for each method at the scene's own
- * step or tolerance.
+ * A first run, by "auto", finds when the first edge lets go. Until shortly before, over the span, runs can be
+ * compared point by point: with each other, and with two references of different families that know nothing
+ * of each other. Afterwards only the mean of many runs says anything: an ensemble, which differs by 1e-9 of
+ * the radius at the start, for each method at the scene's own step or tolerance.
  *
- * Errors are the largest of ACCURACY_TIMES moments, evenly spread over the span. Steps are 2^k times the scene's, so that all of them
- * meet these moments. Methods that choose their own steps are held by nothing but their tolerance; the guard lets unstable steps go, so that
- * the table shows where they are. Work precision diagrams as these: Hairer, Norsett & Wanner, Solving Ordinary Differential
- * Equations I, II.10.
+ * Errors are the largest of ACCURACY_TIMES moments, evenly spread over the span. Steps are 2^k times the
+ * scene's, so that all of them meet these moments. Methods that choose their own steps are held by nothing
+ * but their tolerance; the guard lets unstable steps go, so that the table shows where they are. Work
+ * precision diagrams as these: Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, II.10.
  *
  * Seconds are the thread's own time on a processor: other programs hardly add to them.
  */
@@ -32,7 +33,8 @@ enum {
 
 struct accuracy_options {
     double seconds; /* about how much time all may take */
-    /* Asked between steps, with the share that is done; false ends it all with STATUS_INTERRUPTED. NULL: nobody asks. */
+    /* Asked between steps, with the share that is done; false ends it all with
+     * STATUS_INTERRUPTED. NULL: nobody asks. */
     bool (*go_on)(void *context, double done);
     void *context;
 };
@@ -88,15 +90,16 @@ struct accuracy_table {
         burst_end; /* s: one edge in a hundred had let go; when pieces are counted; INFINITY: no ensembles */
 };
 
-/* meshes as for sim_open(). Errors: those of sim_open() and sim_step() for the first run and the references, STATUS_INTERRUPTED,
- * STATUS_NO_MEMORY; what an integrator of the table fails in is no error but a line of the table. */
+/* meshes as for sim_open(). Errors: those of sim_open() and sim_step() for the first run and the
+ * references, STATUS_INTERRUPTED, STATUS_NO_MEMORY; what an integrator of the table fails in is no error
+ * but a line of the table. */
 enum status accuracy_measure(const struct scene *scene, const struct mesh *meshes,
                              const struct accuracy_options *options, struct accuracy_table *table,
                              struct error *err);
 
-/* How many seconds the fastest method but auto takes for an error, by straight lines between its rows on logarithmic axes; *method
- * becomes that one. Of rows whose steps are longer than the scene's none counts: auto takes none, since edges let go at the
- * ends of steps. INFINITY where nothing is that good. */
+/* How many seconds the fastest method but auto takes for an error, by straight lines between its rows on
+ * logarithmic axes; *method becomes that one. Of rows whose steps are longer than the scene's none counts:
+ * auto takes none, since edges let go at the ends of steps. INFINITY where nothing is that good. */
 double accuracy_fastest(const struct accuracy_table *table, double error, const struct integrator **method);
 
 #endif

@@ -17,8 +17,8 @@ struct accuracy_plan {
     double evaluation; /* s: what one takes */
     double stable;     /* s: the largest step that is surely stable for symplectic-euler */
     double reach;      /* s: until when runs can be compared at all */
-    uint32_t
-        quarter; /* steps of the scene's from one of the subject's times to the next; 0: it is a part of one */
+    /* Steps of the scene's from one of the subject's times to the next; 0: it is a part of one. */
+    uint32_t quarter;
     double step; /* s: the scene's, or a little less when quarter is 0 */
     struct accuracy_states reference;
 };
@@ -29,7 +29,8 @@ enum status accuracy_find_reach(struct accuracy_plan *plan, struct error *err);
 /* The span: as much of `reach` as whole steps and the time that there is allow. */
 void accuracy_set_span(struct accuracy_plan *plan);
 
-/* Makes plan->reference by two methods of different families (accuracy_reference.c); shortens the span when something breaks. */
+/* Makes plan->reference by two methods of different families (accuracy_reference.c); shortens the span
+ * when something breaks. */
 enum status accuracy_find_reference(struct accuracy_plan *plan, struct error *err);
 
 /* An ensemble for each method that has rows (accuracy_burst.c). */

@@ -1,5 +1,6 @@
-/* Two references that know nothing of each other: a method that chooses its steps, at the tightest tolerance that it can keep; and
- * one of fixed steps, halved and extrapolated until the two agree as far as rounding lets them. */
+/* Two references that know nothing of each other: a method that chooses its steps, at the tightest
+ * tolerance that it can keep; and one of fixed steps, halved and extrapolated until the two agree as far
+ * as rounding lets them. */
 #include "sim/accuracy_plan.h"
 #include "sim/guard.h"
 
@@ -70,7 +71,8 @@ struct halving {
     double spent; /* s */
 };
 
-/* Once more, in twice as many parts; with the run before it extrapolated, it is the reference if that agrees better. */
+/* Once more, in twice as many parts; with the run before it extrapolated, it is the reference
+ * if that agrees better. */
 static enum status halve(struct accuracy_plan *plan, const struct integrator *method, struct halving *h,
                          const struct accuracy_states *other, struct error *err)
 {

@@ -43,15 +43,16 @@ void accuracy_close(struct accuracy_run *run); /* what it counted stays */
 enum status accuracy_step(struct accuracy_run *run, const struct accuracy_subject *subject,
                           struct error *err);
 
-/* Steps until the time, or past it where the method can look into its steps. Errors: those of accuracy_step(). */
+/* Steps until the time, or past it where the method can look into its steps. Errors:
+ * those of accuracy_step(). */
 enum status accuracy_advance(struct accuracy_run *run, const struct accuracy_subject *subject, double time,
                              struct error *err);
 
 enum status accuracy_states_open(struct accuracy_states *states, const struct sim *sim, struct error *err);
 void accuracy_states_close(struct accuracy_states *states);
 
-/* Goes through all the subject's times. Errors: those of accuracy_step(); STATUS_INPUT when something breaks before the last
- * of them. */
+/* Goes through all the subject's times. Errors: those of accuracy_step(); STATUS_INPUT when something breaks
+ * before the last of them. */
 enum status accuracy_visit(struct accuracy_run *run, const struct accuracy_subject *subject,
                            struct accuracy_states *states, struct error *err);
 

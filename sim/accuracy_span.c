@@ -17,7 +17,8 @@ static double same_step_until(const struct scene *scene)
     return until;
 }
 
-/* Steps until one edge in a hundred has let go, or the end, or until there is no time left, which is no error. */
+/* Steps until one edge in a hundred has let go, or the end, or until there is no time
+ * left, which is no error. */
 static enum status watch(struct accuracy_run *run, struct accuracy_plan *plan, struct error *err)
 {
     struct accuracy_table *table = plan->table;
@@ -69,8 +70,9 @@ enum status accuracy_find_reach(struct accuracy_plan *plan, struct error *err)
     return STATUS_OK;
 }
 
-/* Four times as many steps must fit into what one row may take, at six evaluations each; and whole numbers of
- * steps twice, four times and eight times as long must fit in between two of the times, as far as there are that many. */
+/* Four times as many steps must fit into what one row may take, at six evaluations each; and whole
+ * numbers of steps twice, four times and eight times as long must fit in between two of the times, as far
+ * as there are that many. */
 void accuracy_set_span(struct accuracy_plan *plan)
 {
     struct accuracy_table *table = plan->table;

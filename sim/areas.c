@@ -82,7 +82,8 @@ struct change {
     struct areas_change share[SHARES];
 };
 
-/* Of all the cones, x0 . x1 x x2/6; a triangle's change is that of its prism. What the moving rim adds is the holes' business. */
+/* Of all the cones, x0 . x1 x x2/6; a triangle's change is that of its prism. What the moving rim adds
+ * is the holes' business. */
 static void change_share(void *context, size_t index, unsigned worker)
 {
     (void)worker;
@@ -127,7 +128,8 @@ struct product {
     double (*dx)[4], (*df)[4];
 };
 
-/* F = q N/6 with q = c + d . x: dF = (q dN + dq N)/6, and of twice an area s1 x s2, dN = d1 x s2 + s1 x d2. */
+/* F = q N/6 with q = c + d . x: dF = (q dN + dq N)/6, and of twice an area s1 x s2,
+ * dN = d1 x s2 + s1 x d2. */
 static void product_triangle(const struct sim *sim, const struct sim_part *part,
                              const struct product *product, uint32_t t)
 {

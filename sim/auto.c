@@ -1,10 +1,11 @@
 /*
- * The method that chooses a method: trials of the present state (trial.h) say which of the candidates, in how many substeps, keeps
- * its error within time.tolerance for the least work. Work is counted in evaluations of the forces, so that the choice, and with
- * it every bit of the result, is the same on any machine.
+ * The method that chooses a method: trials of the present state (trial.h) say which of the candidates, in how
+ * many substeps, keeps its error within time.tolerance for the least work. Work is counted in evaluations of
+ * the forces, so that the choice, and with it every bit of the result, is the same on any machine.
  *
- * It chooses before the first step, again after 32, 256, 2048, ... of the scene's steps, since a balloon at rest does not show
- * what it will be like in motion, whenever the schedule changes something, and when four times as many edges have let go.
+ * It chooses before the first step, again after 32, 256, 2048, ... of the scene's steps, since a balloon at
+ * rest does not show what it will be like in motion, whenever the schedule changes something, and when four
+ * times as many edges have let go.
  */
 #include "sim/auto.h"
 #include "sim/guard.h"
@@ -17,8 +18,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Cheap ones first: what cannot beat the best so far is not tried. The last two, which solve equations and share what they keep,
- * are open only where the others would have to split steps in more than STIFF. */
+/* Cheap ones first: what cannot beat the best so far is not tried. The last two, which solve equations and
+ * share what they keep, are open only where the others would have to split steps in more than STIFF. */
 static const struct integrator *const candidates[] = {
     &integrator_symplectic_euler, &integrator_verlet, &integrator_rk4, &integrator_rkn4,
     &integrator_backward_euler,   &integrator_bdf2};
@@ -37,8 +38,8 @@ struct auto_method {
         uint64_t candidate;        /* that was chosen, and in how many parts */
         double parts, error, work; /* as its trial had it */
         double stable;             /* s: by the guard's bound for the first candidate, when it was opened */
-        /* Work that each took in its last trial for the last choice, 0 where there was none: it will not take less than half of that
-         * in the next one, so that what was far too dear is not tried again. */
+        /* Work that each took in its last trial for the last choice, 0 where there was none: it will not take
+         * less than half of that in the next one, so that what was far too dear is not tried again. */
         double spent[CANDIDATES];
     } memory;
 };
@@ -91,8 +92,8 @@ static enum status open(struct sim *sim, struct error *err)
     return status;
 }
 
-/* The fewest parts that are surely stable for a candidate, from the bound for the one that acts: what both terms of the bound
- * (guard.h) allow is in proportion to the limits. */
+/* The fewest parts that are surely stable for a candidate, from the bound for the one that acts: what both
+ * terms of the bound (guard.h) allow is in proportion to the limits. */
 static double fewest_parts(struct sim *sim, int i)
 {
     const struct integrator *to = candidates[i];
@@ -107,14 +108,16 @@ static double fewest_parts(struct sim *sim, int i)
     return fmax(ceil(sim->whole_step / (guard_stable_step(sim) * larger) * (1 - 1e-12)), 1);
 }
 
-/* A candidate in a number of parts, with what its trial said, or before that with the least work that it can take. */
+/* A candidate in a number of parts, with what its trial said, or before that with the least
+ * work that it can take. */
 struct option {
     int candidate;
     double parts;
     struct trial_result result;
 };
 
-/* Evaluations of a step, as far as one knows before a trial; one of rkn4 for nothing would cost more than all others together. */
+/* Evaluations of a step, as far as one knows before a trial; one of rkn4 for nothing would cost more
+ * than all others together. */
 static double least_work(const struct sim *sim, int candidate)
 {
     const struct integrator *method = candidates[candidate];
@@ -130,8 +133,8 @@ static struct option untried(const struct sim *sim, int candidate, double parts)
         candidate, parts, {INFINITY, parts <= GUARD_PARTS_MAX ? least * parts : INFINITY, false}};
 }
 
-/* How many of the scene's steps a trial takes: two, or one where they are split in many parts, and before the first step, since
- * that choice does not last. */
+/* How many of the scene's steps a trial takes: two, or one where they are split in many parts, and before the
+ * first step, since that choice does not last. */
 static uint32_t trial_steps(const struct sim *sim, double parts)
 {
     return sim->steps == 0 ? 1 : (uint32_t)fmax(fmin(2, 1000 / parts), 1);
@@ -144,8 +147,8 @@ static void try_option(struct sim *sim, struct option *option)
                                (uint32_t)option->parts, trial_steps(sim, option->parts), TRIAL_ROWS);
 }
 
-/* In how many more parts it would keep the tolerance, by its order; of errors near the radius that says little. What took too much
- * work takes no less in more parts. */
+/* In how many more parts it would keep the tolerance, by its order; of errors near the radius that says
+ * little. What took too much work takes no less in more parts. */
 static struct option split_further(const struct sim *sim, const struct option *option, double tolerance,
                                    double most)
 {
@@ -155,7 +158,8 @@ static struct option split_further(const struct sim *sim, const struct option *o
     return untried(sim, option->candidate, parts <= most && !option->result.too_dear ? parts : INFINITY);
 }
 
-/* The one with the least work; of those that are within a tenth of it the one of the highest order, whose errors are less. */
+/* The one with the least work; of those that are within a tenth of it the one of the highest order,
+ * whose errors are less. */
 static struct option *find_cheapest(struct option *options)
 {
     double least = INFINITY;
@@ -169,9 +173,9 @@ static struct option *find_cheapest(struct option *options)
     return cheapest;
 }
 
-/* Tries what promises to be cheapest until that keeps the tolerance; what cannot be cheaper than another that does is never
- * tried. A burst is not smooth, and no split brings it within any tolerance: where nothing does in PARTS_MORE times the parts that are
- * stable, it is what came nearest. */
+/* Tries what promises to be cheapest until that keeps the tolerance; what cannot be cheaper than another that
+ * does is never tried. A burst is not smooth, and no split brings it within any tolerance: where nothing does
+ * in PARTS_MORE times the parts that are stable, it is what came nearest. */
 static struct option find_best(struct sim *sim)
 {
     enum { TRIALS_MAX = 30, PARTS_MORE = 64 };

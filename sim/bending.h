@@ -3,18 +3,20 @@
  *
  * With the angle t between the two normals, positive where the skin bulges outwards, and t0 at rest,
  *     E = w (1 - cos(t - t0)),    w = k |e|^2/(A1 + A2)     e, A1 and A2 the edge and the two areas at rest
- * which is w (t - t0)^2/2 of a small fold (Grinspun et al., Discrete shells, SCA 2003) and (w/2)(2 sin((t - t0)/2))^2 of any, so that it
- * needs no arcs, and a hinge that folds right through itself goes on without a jump. Of a mesh of equilateral triangles that is bent with the
- * principal curvatures c1 and c2, the sum over the hinges is k/2 (c1^2 + c2^2 - 2/3 c1 c2) x area (Seung and Nelson, Phys. Rev. A 38,
- * 1988: Poisson's ratio -1/3): k is the stiffness of a plate.
+ * which is w (t - t0)^2/2 of a small fold (Grinspun et al., Discrete shells, SCA 2003) and (w/2)(2 sin((t -
+ * t0)/2))^2 of any, so that it needs no arcs, and a hinge that folds right through itself goes on without a
+ * jump. Of a mesh of equilateral triangles that is bent with the principal curvatures c1 and c2, the sum over
+ * the hinges is k/2 (c1^2 + c2^2 - 2/3 c1 c2) x area (Seung and Nelson, Phys. Rev. A 38, 1988: Poisson's
+ * ratio -1/3): k is the stiffness of a plate.
  *
  * With e = x1 - x0, d2 = x2 - x0, d3 = x3 - x0 (x2 and x3 across from the edge), n1 = e x d2 and n2 = d3 x e,
  *     cos t = n1.n2/|n1||n2|,   sin t = -|e| n1.d3/|n1||n2|,
  *     f2 = T |e|/|n1|^2 n1,   f3 = T |e|/|n2|^2 n2,   f1 = -(a2 f2 + a3 f3),   ai = di.e/|e|^2,   f0 = -(f1 + f2 + f3)
  * under the hinge's torque T = w sin(t - t0) + w damping dt/dt: no force and no torque on the whole.
  *
- * Crushed triangles. The lever of a triangle shrinks with it, and the forces grow. So E is multiplied by r (2 - r) for each of the two
- * whose area is below a quarter of that of the smaller at rest: r = |n|^2/(that quarter of twice its area)^2.
+ * Crushed triangles. The lever of a triangle shrinks with it, and the forces grow. So E is multiplied by r (2
+ * - r) for each of the two whose area is below a quarter of that of the smaller at rest: r = |n|^2/(that
+ * quarter of twice its area)^2.
  *
  * A hinge is there as long as its edge and both its triangles are; a cut along the edge ends it.
  */
@@ -27,14 +29,15 @@
 
 struct bending_kernels;
 
-/* Where a hinge's x2 and x3 are: corners of its triangles, whose numbers are less the balloon's triangle_begin. x0 and x1 are its edge's
- * points; the first triangle has them in this order. */
+/* Where a hinge's x2 and x3 are: corners of its triangles, whose numbers are less the balloon's
+ * triangle_begin. x0 and x1 are its edge's points; the first triangle has them in this order. */
 struct bending_corners {
     uint32_t triangle[2];
     unsigned char corner[2];
 };
 
-/* The hinges that reach into a part and are not its own: their numbers, in order, those before its own first. */
+/* The hinges that reach into a part and are not its own: their numbers, in order,
+ * those before its own first. */
 struct bending_reach {
     uint32_t *hinge; /* [count] owned */
     uint32_t before, count;
@@ -45,11 +48,12 @@ struct bending_passes {
     double (*normal)[4];             /* [triangles] */
     double *cotangent[3], *swing[3]; /* [triangles] each; swing NULL where nothing is damped */
     double *least;                   /* [triangles] below that |n|^2 a hinge takes it for crushed */
-    bool *
-        crushed; /* [part_count] some triangle is; a line of the cache would be shared, but is hardly ever written */
+    /* [part_count] some triangle is; a line of the cache would be shared, but is hardly ever written. */
+    bool *crushed;
 };
 
-/* What a balloon's hinges are; balloon->bending, NULL where none are asked for. Numbers of hinges are those of their edges less edge_begin. */
+/* What a balloon's hinges are; balloon->bending, NULL where none are asked for. Numbers of hinges are those
+ * of their edges less edge_begin. */
 struct bending {
     uint32_t count;  /* edges when the simulation was opened */
     double *rest[4]; /* [count] each: w cos t0, w sin t0, r/|n|^2, 1/slope at rest; 0: no hinge. Owned. */
@@ -64,8 +68,8 @@ struct bending {
     const struct bending_kernels *kernels;
 };
 
-/* What says which hinges are there and where, of one balloon: so that loops need not look it up again and again. Tables of triangles begin with
- * the balloon's first. */
+/* What says which hinges are there and where, of one balloon: so that loops need not look it up again and
+ * again. Tables of triangles begin with the balloon's first. */
 struct bending_view {
     const unsigned char *edge_active, *triangle_active;
     const uint32_t (*edge_point)[2], (*triangle_point)[3], (*triangle_edge)[3];

@@ -1,6 +1,7 @@
 /*
- * The first of the passes over hinges (bending_passes.h): what their triangles bring to them, four triangles at a time. The step goes through the
- * same triangles for their normals (forces_triangles.h), which are a part of it: so these are added up here too, but not where air is.
+ * The first of the passes over hinges (bending_passes.h): what their triangles bring to them, four triangles
+ * at a time. The step goes through the same triangles for their normals (forces_triangles.h), which are a
+ * part of it: so these are added up here too, but not where air is.
  */
 #ifndef SIM_BENDING_FACETS_H
 #define SIM_BENDING_FACETS_H
@@ -9,7 +10,8 @@
 #include "sim/bending_kernels.h"
 #include "sim/forces_triangles.h"
 
-/* A row has room for one more number, and the guard needs two of a triangle, to six digits: each as half of one's bits. */
+/* A row has room for one more number, and the guard needs two of a triangle, to six digits: each
+ * as half of one's bits. */
 INLINE lanes pack(lanes high, lanes low)
 {
     const lane_mask upper = {-(1LL << 32), -(1LL << 32), -(1LL << 32), -(1LL << 32)};
@@ -32,7 +34,8 @@ INLINE lanes of_four(const double *table, const size_t index[4])
     return (lanes){table[index[0]], table[index[1]], table[index[2]], table[index[3]]};
 }
 
-/* Four that follow each other, or fewer, with the last of them again in place of more; `count` is known when it is compiled where it is 4. */
+/* Four that follow each other, or fewer, with the last of them again in place of more; `count` is known when
+ * it is compiled where it is 4. */
 INLINE void list_four(size_t first, size_t count, size_t index[4])
 {
     for (size_t i = 0; i < 4; i++)
@@ -48,8 +51,8 @@ INLINE void put_four(lanes numbers, double *table, size_t count)
             table[i] = numbers[i];
 }
 
-/* What the first pass works with; all tables begin with the balloon's first triangle. Copied, so that the compiler knows that what is written is
- * none of the addresses. */
+/* What the first pass works with; all tables begin with the balloon's first triangle. Copied, so that the
+ * compiler knows that what is written is none of the addresses. */
 struct facet_work {
     const row *position, *velocity;
     const uint32_t (*point)[3];
@@ -134,7 +137,8 @@ INLINE struct facets_put put_facets(const struct facet_work *w, size_t first, si
     return put;
 }
 
-/* What of four triangles goes to their points on the way: nothing; or the step's part 3 (forces_triangles.h), to the bit. */
+/* What of four triangles goes to their points on the way: nothing; or the step's part 3
+ * (forces_triangles.h), to the bit. */
 enum facet_normals { NORMALS_NONE, NORMALS_UNIT, NORMALS_AREA };
 
 INLINE row unit_of(row normal)

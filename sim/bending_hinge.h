@@ -1,5 +1,6 @@
 /*
- * Formulas of hinges (bending.h), of four at once: for their kernels, which are compiled once for each set of instructions.
+ * Formulas of hinges (bending.h), of four at once: for their kernels, which are compiled once for
+ * each set of instructions.
  */
 #ifndef SIM_BENDING_HINGE_H
 #define SIM_BENDING_HINGE_H
@@ -141,7 +142,8 @@ INLINE lanes push_of(const struct hinge *h, lanes energy, lanes left, lanes othe
     return -2 * energy * (other * (2 - other)) * (2 - 2 * left) * h->shrink;
 }
 
-/* The forces by which r (2 - r) changes: d|n1|^2 = 2 (n1 x e).d(d2) + 2 (d2 x n1).de, and likewise of n2 = d3 x e. */
+/* The forces by which r (2 - r) changes: d|n1|^2 = 2 (n1 x e).d(d2) + 2 (d2 x n1).de, and
+ * likewise of n2 = d3 x e. */
 INLINE struct pulls crushing_pulls(const struct hinge *h)
 {
     const lanes energy = bent(h), a = push_of(h, energy, h->wing[0].left, h->wing[1].left),

@@ -1,6 +1,7 @@
 /*
- * Forces, energies and derivatives of hinges, four at a time (lanes.h). Compiled once for each set of instructions:
- * SIM_BENDING is the name of the table at the end. The formulas are in bending_hinge.h; bending.h says what their letters mean.
+ * Forces, energies and derivatives of hinges, four at a time (lanes.h). Compiled once for each set of
+ * instructions: SIM_BENDING is the name of the table at the end. The formulas are in bending_hinge.h;
+ * bending.h says what their letters mean.
  */
 #include "sim/bending_kernels.h"
 #include "sim/bending_hinge.h"
@@ -184,8 +185,8 @@ INLINE void take_last(struct group *g, struct work *work, group_handler *handle)
         handle(work, g);
 }
 
-/* The last part's hinges are those of its triangles' sides, each once: with its first triangle, or with the second where that one alone
- * has new points. */
+/* The last part's hinges are those of its triangles' sides, each once: with its first triangle, or with the
+ * second where that one alone has new points. */
 static void each_late_group(const struct sim *sim, const struct sim_part *part, struct work *work,
                             group_handler *handle)
 {

@@ -1,5 +1,5 @@
-/* The inner loops of hinges (bending.h), compiled once for each set of instructions like those of the springs (kernels.h); all give the same
- * bits. */
+/* The inner loops of hinges (bending.h), compiled once for each set of instructions like those of the springs
+ * (kernels.h); all give the same bits. */
 #ifndef SIM_BENDING_KERNELS_H
 #define SIM_BENDING_KERNELS_H
 
@@ -12,9 +12,10 @@ struct bending_sums {
 };
 
 struct bending_kernels {
-    /* The forces, in three passes over all parts (bending_passes.h): of the part's triangles, chunk by chunk; of its hinges, `crushed` where the
-     * first found any part's to be so; and what is added to the forces on its points. The first is true where it has added the triangles'
-     * normals to their points' too, as the step asks for (kernels.h). */
+    /* The forces, in three passes over all parts (bending_passes.h): of the part's triangles, chunk by chunk;
+     * of its hinges, `crushed` where the first found any part's to be so; and what is added to the forces on
+     * its points. The first is true where it has added the triangles' normals to their points' too, as the
+     * step asks for (kernels.h). */
     bool (*triangles)(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk);
     void (*hinges)(struct sim *sim, const struct sim_part *part, bool crushed);
     void (*forces)(struct sim *sim, const struct sim_part *part, bool crushed);

@@ -1,14 +1,16 @@
 /*
- * The forces of hinges whose triangles are not crushed (bending.h), four at a time and in three passes, so that what three hinges of a triangle
- * have in common is worked out once. All that they do to a triangle is along its unit normal N, and with its cotangents k_i:
+ * The forces of hinges whose triangles are not crushed (bending.h), four at a time and in three passes, so
+ * that what three hinges of a triangle have in common is worked out once. All that they do to a triangle is
+ * along its unit normal N, and with its cotangents k_i:
  *
  *     1  of each triangle   N and k_i = d_i.d_i'/|n|, d_i and d_i' the two sides that meet at corner i
  *     2  of each hinge      H = T/|e|, from cos t = N1.N2 and sin t = (N1 x N2).e/|e|
  *     3  on each triangle   the force c_i N on corner i; with H_i of the hinge across from it and i, j, k in turn,
  *                           c_i = k_k (H_i - H_j) + k_j (H_i - H_k)
  *
- * since T |e|/|n| on the far corner is H (k_j + k_k), and what balances it is -H k_k and -H k_j. The c_i add up to nothing. Rates are the same
- * sums the other way round: what a triangle adds to |e| dt/dt is -(k_k (w_i - w_j) + k_j (w_i - w_k)), w = N.v of the corners.
+ * since T |e|/|n| on the far corner is H (k_j + k_k), and what balances it is -H k_k and -H k_j. The c_i add
+ * up to nothing. Rates are the same sums the other way round: what a triangle adds to |e| dt/dt is -(k_k (w_i
+ * - w_j) + k_j (w_i - w_k)), w = N.v of the corners.
  *
  * Where triangles are crushed, their hinges are left out here.
  */
@@ -80,8 +82,8 @@ INLINE lanes slowed(const struct hinge_work *w, const size_t hinge[4], lane_mask
                         lanes_all(0));
 }
 
-/* Of four hinges. The slope is that of slope_of(): of a side l of three, (1 + 2 a^2 + 2 (1 - a)^2) l^2/|n|^2 = (2 S - l^2)/|n|^2 - 4/l^2, S the sum of
- * the squares of all three. */
+/* Of four hinges. The slope is that of slope_of(): of a side l of three, (1 + 2 a^2 + 2 (1 - a)^2) l^2/|n|^2
+ * = (2 S - l^2)/|n|^2 - 4/l^2, S the sum of the squares of all three. */
 INLINE struct folds folds_of(const struct hinge_work *w, const size_t hinge[4], bool damped)
 {
     row side[4], one[4], other[4], n1[4], n2[4];
@@ -173,7 +175,8 @@ INLINE struct pull_work pull_work_of(const struct sim *sim, const struct sim_bal
                               .pull = sim->hinge_pull};
 }
 
-/* Of one triangle, the force on those of its points that are the part's. Corner k is across from side k + 1. */
+/* Of one triangle, the force on those of its points that are the part's. Corner k is
+ * across from side k + 1. */
 INLINE void add_to_own_corners(const struct pull_work *w, const struct sim_part *part, size_t t)
 {
     const double h0 = w->pull[w->edge[t][1]], h1 = w->pull[w->edge[t][2]], h2 = w->pull[w->edge[t][0]];
@@ -206,7 +209,8 @@ INLINE void add_to_corners(const struct pull_work *w, size_t t)
     }
 }
 
-/* First of triangles that come in from lower parts, then of the part's own: in the same order however points are shared out. */
+/* First of triangles that come in from lower parts, then of the part's own: in the same order however
+ * points are shared out. */
 static void add_forces(struct sim *sim, const struct sim_part *part)
 {
     const uint32_t first = part->balloon->triangle_begin;

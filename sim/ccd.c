@@ -6,8 +6,8 @@ static double clamp(double value)
     return value > 0 ? (value < 1 ? value : 1) : 0;
 }
 
-/* The nearest place of the triangle 1 2 3 to the point 0, by the region of Voronoi that the point is in (Ericson, Real-Time Collision Detection,
- * 5.1.5). A triangle without area falls through to its edges. */
+/* The nearest place of the triangle 1 2 3 to the point 0, by the region of Voronoi that the point is in
+ * (Ericson, Real-Time Collision Detection, 5.1.5). A triangle without area falls through to its edges. */
 static void weigh_triangle(double x[4][3], double weight[4])
 {
     double ab[3], ac[3], ap[3], bp[3], cp[3];
@@ -113,7 +113,8 @@ double ccd_apart(enum ccd_kind kind, const struct ccd_touch *touch, double x[4][
     return least - most;
 }
 
-/* They never move past a tenth of what was free between them: nearer than that counts as a touch, and so does what takes too many steps. */
+/* They never move past a tenth of what was free between them: nearer than that counts as a touch, and so does
+ * what takes too many steps. */
 bool ccd_meet(enum ccd_kind kind, double from[4][3], double to[4][3], double gap, struct ccd_touch *touch)
 {
     enum { STEPS_MAX = 100 };

@@ -1,6 +1,7 @@
 /*
- * How a checkpoint is made up: a signature, and chunks of 4 bytes name, 8 bytes size of the contents, the contents, 4 bytes CRC-32
- * of all those. Numbers are little endian but for the blocks, which are as the machine has them.
+ * How a checkpoint is made up: a signature, and chunks of 4 bytes name, 8 bytes size of the contents,
+ * the contents, 4 bytes CRC-32 of all those. Numbers are little endian but for the blocks, which are
+ * as the machine has them.
  *
  *     "HEAD"  4 bytes version, 4 bytes CHECKPOINT_ORDER as the machine has it, 8 bytes fingerprint of the meshes
  *     "KEYS"  the scene, a line PATH=VALUE for each key that a state depends on

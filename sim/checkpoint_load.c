@@ -233,8 +233,8 @@ static bool all_finite(double (*const row)[4], size_t count)
     return true;
 }
 
-/* Bytes with a sound checksum may still be no state: flags that are no flags, a time that does not advance, points that are
- * nowhere. */
+/* Bytes with a sound checksum may still be no state: flags that are no flags, a time that does not advance,
+ * points that are nowhere. */
 static bool is_state(const struct sim *sim)
 {
     const double least = 1e-9, most = 1e6; /* the range of time.step */

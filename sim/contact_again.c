@@ -13,7 +13,8 @@ static void forget_pairs(struct contact *c, uint32_t point)
     }
 }
 
-/* What is near a point that is marked: all pairs with it, but for those with a lower one that is marked too. */
+/* What is near a point that is marked: all pairs with it, but for those with a lower
+ * one that is marked too. */
 enum { VICINITY_MOST = 64 };
 struct vicinity {
     const struct contact_finder *finder;
@@ -112,7 +113,8 @@ static void find_vicinity(void *context, size_t index, unsigned worker)
     contact_tree_near(&c->tree, &r.all, take_near, &r);
 }
 
-/* The triangles around the points in c->again, each once; returns how many, or UINT32_MAX where too many are around one. */
+/* The triangles around the points in c->again, each once; returns how many, or UINT32_MAX where
+ * too many are around one. */
 static uint32_t list_around(const struct sim *sim, struct contact *c)
 {
     uint32_t count = 0;

@@ -1,9 +1,10 @@
 /*
  * How far pairs are apart, eight at a time, for contact_kernels.c.
  *
- * In single precision, which is enough to tell most pairs from those that touch. Each place is rounded to 6e-8 of its numbers, and each difference,
- * product and sum of two places once more: a separation of points is off by no more than 22 such parts, and 20 more where places
- * in between are taken, of the sum of a point's numbers. So much and some more is taken off.
+ * In single precision, which is enough to tell most pairs from those that touch. Each place is rounded to
+ * 6e-8 of its numbers, and each difference, product and sum of two places once more: a separation of points
+ * is off by no more than 22 such parts, and 20 more where places in between are taken, of the sum of a
+ * point's numbers. So much and some more is taken off.
  */
 #ifndef SIM_CONTACT_APART_H
 #define SIM_CONTACT_APART_H
@@ -54,7 +55,8 @@ static inline struct lanes8_vec apart_shorter(struct lanes8_vec a, struct lanes8
     return apart_select(lanes8_dot(a, a) < lanes8_dot(b, b), a, b);
 }
 
-/* From the nearest place of the triangle 1 2 3 to the point 0: across its plane where the point is over it, else from the nearest side. */
+/* From the nearest place of the triangle 1 2 3 to the point 0: across its plane where the point is over it,
+ * else from the nearest side. */
 static inline struct lanes8_vec apart_from_triangle(const struct apart_eight *f)
 {
     const struct lanes8_vec ab = lanes8_sub(f->x[2], f->x[1]), ac = lanes8_sub(f->x[3], f->x[1]),
@@ -86,8 +88,8 @@ static inline struct lanes8_vec apart_way(const struct apart_eight *f, enum ccd_
     return kind == CCD_EDGES ? apart_from_edge(f) : apart_from_triangle(f);
 }
 
-/* How far the first features begin before the second ones end along a direction that the way has, whatever its length. From the first point, so that what
- * is rounded is small. */
+/* How far the first features begin before the second ones end along a direction that the way has, whatever
+ * its length. From the first point, so that what is rounded is small. */
 static inline lanes8 apart_along(const struct apart_eight *f, enum ccd_kind kind, struct lanes8_vec n)
 {
     const lanes8 x1 = lanes8_dot(n, lanes8_sub(f->x[1], f->x[0])),
@@ -143,8 +145,9 @@ static inline void apart_eight(const struct contact_flock *flock, enum ccd_kind 
 }
 
 /*
- * contact_kernels.h: open; a bit for each. A way from one feature to the other is never shorter than they are apart. Features that slide past each other are
- * often not apart at last along the direction in which they are nearest at first, but along the one in which they are nearest then.
+ * contact_kernels.h: open; a bit for each. A way from one feature to the other is never shorter than they are
+ * apart. Features that slide past each other are often not apart at last along the direction in which they
+ * are nearest at first, but along the one in which they are nearest then.
  */
 static inline unsigned apart_open(const struct contact_flock *flock, float thickness, enum ccd_kind kind,
                                   const uint32_t (*points)[4])

@@ -12,7 +12,8 @@ struct contact_approach {
     struct ccd_touch touch;
 };
 
-/* contact_look.c: whether a pair comes nearer, at any time of the step, than half of what it must keep; how, into *a. */
+/* contact_look.c: whether a pair comes nearer, at any time of the step, than half of what it
+ * must keep; how, into *a. */
 bool contact_approaches(const struct sim *sim, const struct contact_pair *pair, struct contact_approach *a);
 
 #endif

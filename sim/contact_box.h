@@ -1,10 +1,12 @@
 /*
- * Boxes around what moves in straight lines: one around it where the lines begin, and one where they end. Whatever is apart along an axis at
- * both ends, the same one before the other, is so all the way: the gap is at least what lies in between. So boxes of two features that
- * move along together are as good as if they stood still.
+ * Boxes around what moves in straight lines: one around it where the lines begin, and one where they
+ * end. Whatever is apart along an axis at both ends, the same one before the other, is so all the way:
+ * the gap is at least what lies in between. So boxes of two features that move along together are as
+ * good as if they stood still.
  *
- * The lowest corner is kept turned round, as minus its numbers: of two boxes together both corners are the larger ones, and one box's
- * lowest corner plus the other's highest is how far they reach into each other, and negative where they are apart.
+ * The lowest corner is kept turned round, as minus its numbers: of two boxes together both corners are the
+ * larger ones, and one box's lowest corner plus the other's highest is how far they reach into each other,
+ * and negative where they are apart.
  *
  * In single precision, each a hair too large.
  */
@@ -59,7 +61,8 @@ static inline struct contact_box contact_box_empty(void)
     return (struct contact_box){{none, none}};
 }
 
-/* Of a point that goes from one place to another, with room on all sides. Rounding to single precision moves a number by 6e-8 of it. */
+/* Of a point that goes from one place to another, with room on all sides. Rounding to single precision moves
+ * a number by 6e-8 of it. */
 static inline struct contact_box contact_box_point(const double from[3], const double to[3], double room)
 {
     const double *ends[2] = {from, to};

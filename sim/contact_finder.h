@@ -12,7 +12,8 @@ struct contact_finder {
 
 /* With the leaves' points and edges found anew where some are torn. */
 struct contact_finder contact_finder_begin(struct sim *sim);
-/* Couples to look at: a point and a triangle by its number; two edges by theirs. They are looked at some at a time, and what can touch comes onto the list. */
+/* Couples to look at: a point and a triangle by its number; two edges by theirs. They are looked at some at a
+ * time, and what can touch comes onto the list. */
 void contact_take_point(const struct contact_finder *f, struct contact_taken *taken, uint32_t point,
                         uint32_t triangle);
 void contact_take_edges(const struct contact_finder *f, struct contact_taken *taken, uint32_t e, uint32_t g);

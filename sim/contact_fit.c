@@ -1,4 +1,5 @@
-/* Boxes around the ways of the points, triangles and patches of contact_tree.c, and to which sides the patches look. */
+/* Boxes around the ways of the points, triangles and patches of contact_tree.c, and to which
+ * sides the patches look. */
 #include "common/threads.h"
 #include "sim/contact_tree.h"
 #include "sim/topology.h"
@@ -118,7 +119,8 @@ void contact_tree_fit(struct contact_tree *tree, struct sim *sim, const struct c
     fit_nodes(tree, sim, 0, end);
 }
 
-/* A patch of which a triangle no longer looks to where all others do: false, there is no room to remember it. */
+/* A patch of which a triangle no longer looks to where all others do: false, there is
+ * no room to remember it. */
 static bool open_patch(struct contact_tree *tree, uint32_t node)
 {
     const struct contact_node *n = &tree->nodes[node];

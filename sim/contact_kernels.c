@@ -1,4 +1,5 @@
-/* Four triangles at once (lanes.h), and eight pairs (contact_apart.h). SIM_CONTACT is the name of the table at the end. */
+/* Four triangles at once (lanes.h), and eight pairs (contact_apart.h). SIM_CONTACT is the name
+ * of the table at the end. */
 #include "sim/contact_apart.h"
 #include "sim/contact_sift.h"
 #include "sim/lanes.h"
@@ -23,7 +24,8 @@ static inline bool any_negative(extent_mask mask)
 #endif
 }
 
-/* A box with its corners changed round, so that sums with another box's are of a low one and a high one each. */
+/* A box with its corners changed round, so that sums with another box's are of a low
+ * one and a high one each. */
 struct turned {
     extent at[2];
 };
@@ -130,7 +132,8 @@ static inline struct lanes3 scale(lanes s, struct lanes3 a)
     return (struct lanes3){s * a.x, s * a.y, s * a.z};
 }
 
-/* Half of the directions to the middles of a cube's faces, edges and corners; the others are their opposites. */
+/* Half of the directions to the middles of a cube's faces, edges and corners; the
+ * others are their opposites. */
 enum { SIDES = 13 };
 
 static inline void along_sides(struct lanes3 n, lanes along[SIDES])
@@ -151,7 +154,8 @@ static inline struct lanes3 normal_of(const struct lanes3 x[3], lanes *squares)
     return lanes_cross(ab, ac);
 }
 
-/* How far the normal is at least along each direction, and at most, on the way: it is made of three vectors (contact_tree.h). */
+/* How far the normal is at least along each direction, and at most, on the way: it is made of three
+ * vectors (contact_tree.h). */
 static inline void span_sides(const struct lanes3 from[3], const struct lanes3 to[3], lanes least[SIDES],
                               lanes most[SIDES], lanes *squares)
 {
@@ -170,9 +174,10 @@ static inline void span_sides(const struct lanes3 from[3], const struct lanes3 t
 }
 
 /*
- * The normal is a x b + b x c + c x a. With the corners off by `stray` each it is off by up to stray times the sides' sum, which is no more than the root of
- * three times their squares' sum, and by twice the area of a triangle in a sphere of that radius: no more than 3 sqrt(3)/2 stray^2. Rounding adds far
- * less than 1e-9 of those squares.
+ * The normal is a x b + b x c + c x a. With the corners off by `stray` each it is off by up to stray times
+ * the sides' sum, which is no more than the root of three times their squares' sum, and by twice the area
+ * of a triangle in a sphere of that radius: no more than 3 sqrt(3)/2 stray^2. Rounding adds far less than
+ * 1e-9 of those squares.
  */
 static inline lane_mask four_sides(const struct lanes3 from[3], const struct lanes3 to[3], lanes stray)
 {

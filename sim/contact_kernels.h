@@ -1,4 +1,5 @@
-/* The inner loops of contact, once for each set of instructions: which boxes meet, and how far pairs are apart. */
+/* The inner loops of contact, once for each set of instructions: which boxes meet, and
+ * how far pairs are apart. */
 #ifndef SIM_CONTACT_KERNELS_H
 #define SIM_CONTACT_KERNELS_H
 
@@ -7,7 +8,8 @@
 
 #include <stdint.h>
 
-/* Ways of points, as seen from one place, in single precision: x, y, z, 0 where they begin and x, y, z, 0 where they end. */
+/* Ways of points, as seen from one place, in single precision: x, y, z, 0 where they begin and x,
+ * y, z, 0 where they end. */
 struct contact_rounding {
     double (*from)[4], (*to)[4]; /* [point_count] */
     const double *origin;        /* x, y, z */
@@ -22,8 +24,9 @@ struct contact_flock {
     float gone;       /* the first places are so far on the way */
 };
 
-/* A point and a triangle, or two edges. With `gone` from 0 where the lines begin to 1 at their ends they are, on the lines, no nearer
- * than distance - gone x approach, which is a hair too small, for what single precision rounds. */
+/* A point and a triangle, or two edges. With `gone` from 0 where the lines begin to 1 at their ends they
+ * are, on the lines, no nearer than distance - gone x approach, which is a hair too small, for what
+ * single precision rounds. */
 struct contact_pair {
     _Alignas(32) uint32_t
         point[4];  /* the point and the triangle's corners, or the ends of one edge and of the other */
@@ -54,35 +57,40 @@ struct contact_group {
 };
 
 struct contact_kernels {
-    /* Of a box of each of two groups those that meet: couples[i] becomes their numbers in a and b; returns how many there are. There is room for all. */
+    /* Of a box of each of two groups those that meet: couples[i] becomes their numbers in a and b; returns
+     * how many there are. There is room for all. */
     uint32_t (*meet)(const struct contact_group *a, const struct contact_group *b, uint8_t (*couples)[2]);
 
     /* The ways of points[begin] to points[end - 1]. */
     void (*round)(const struct contact_rounding *job, uint32_t begin, uint32_t end);
 
     /*
-     * apart[i][0] and [1] become how far pair i is apart at least at the first places and at the last, along the direction in which its features are nearest at
-     * the first (ccd_apart()): on the way they are never nearer than what lies in between. points has room for a multiple of eight; so has apart.
+     * apart[i][0] and [1] become how far pair i is apart at least at the first places and at the last, along
+     * the direction in which its features are nearest at the first (ccd_apart()): on the way they are never
+     * nearer than what lies in between. points has room for a multiple of eight; so has apart.
      */
     void (*apart)(const struct contact_flock *flock, uint32_t (*points)[4], uint32_t count,
                   float (*apart)[2]);
 
     /*
-     * Which of the pairs may come nearer on their way than half of `thickness`, or of their distance at first where that is less: open becomes their numbers, in
-     * order, and the call returns how many. All others surely do not. points as above; open has room for `count`.
+     * Which of the pairs may come nearer on their way than half of `thickness`, or of their distance at first
+     * where that is less: open becomes their numbers, in order, and the call returns how many. All others
+     * surely do not. points as above; open has room for `count`.
      */
     uint32_t (*open)(const struct contact_flock *flock, double thickness, uint32_t (*points)[4],
                      uint32_t count, uint32_t *open);
 
     /*
-     * Which of pairs[which[0]] to pairs[which[count - 1]] may touch, by how far their points are from their lines: near becomes which ones, in order, and the call
-     * returns how many. which NULL: the pairs from the first on; then awake[i] becomes whether pair i does not sleep. There is room for a multiple of eight in all
-     * but near, and pairs have points there too.
+     * Which of pairs[which[0]] to pairs[which[count - 1]] may touch, by how far their points are from their
+     * lines: near becomes which ones, in order, and the call returns how many. which NULL: the pairs from the
+     * first on; then awake[i] becomes whether pair i does not sleep. There is room for a multiple of eight in
+     * all but near, and pairs have points there too.
      */
     uint32_t (*sift)(const struct contact_sieve *sieve, const struct contact_pair *pairs,
                      const uint32_t *which, uint32_t count, unsigned char *awake, uint32_t *near);
 
-    /* sides[t] becomes, for `count` of the triangles, a bit for each of 26 directions that its normal looks to all the way, whatever its points stray. */
+    /* sides[t] becomes, for `count` of the triangles, a bit for each of 26 directions that its normal looks
+     * to all the way, whatever its points stray. */
     void (*sides)(const struct contact_ways *ways, uint32_t (*triangle_point)[3], const uint32_t *triangles,
                   uint32_t count, uint32_t *sides);
 };

@@ -6,8 +6,9 @@
  *     for (uint32_t at; (at = contact_links_next(&links)) != UINT32_MAX;)
  *         c->pairs[at / 4] ...                                       whose point at % 4 it is
  *
- * The pairs of a new list come into an index, in which those of a point follow each other; what is found later, little as a rule, into chains.
- * Both are in c->link: the index in the places of the pairs that it has, the next in each chain in the place of the one before.
+ * The pairs of a new list come into an index, in which those of a point follow each other; what is found
+ * later, little as a rule, into chains. Both are in c->link: the index in the places of the pairs that it
+ * has, the next in each chain in the place of the one before.
  */
 #ifndef SIM_CONTACT_LINKS_H
 #define SIM_CONTACT_LINKS_H

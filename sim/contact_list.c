@@ -7,8 +7,8 @@
 
 #include <string.h>
 
-/* A share of the mean edge as it is now: more, and neighbours in a sheet come onto the list; less, and it is made more often. The more pairs there
- * are, the more it matters. Of a sample of edges. */
+/* A share of the mean edge as it is now: more, and neighbours in a sheet come onto the list; less, and it is
+ * made more often. The more pairs there are, the more it matters. Of a sample of edges. */
 static double choose_reach(const struct sim *sim)
 {
     enum { SAMPLE = 512 };
@@ -24,11 +24,13 @@ static double choose_reach(const struct sim *sim)
     return least / (!memory->is_awake ? 10 : memory->pairs < 2 * (uint64_t)sim->point_count ? 14 : 24);
 }
 
-/* What is found again for this share of all points costs about as much as a list. While skins are near each other, lists are made for so many steps that it is
- * a part of that; where it is as much, the list is given up. */
+/* What is found again for this share of all points costs about as much as a list. While skins are
+ * near each other, lists are made for so many steps that it is a part of that; where it is as
+ * much, the list is given up. */
 enum { AGAIN_LITTLE = 64, AGAIN_MUCH = 24, AGAIN_MOST = 10 };
 
-/* As many steps as the last list held for; more where it came to its end with room to spare, fewer where too much was found again. */
+/* As many steps as the last list held for; more where it came to its end with room to spare, fewer where
+ * too much was found again. */
 static uint64_t choose_horizon(const struct sim *sim)
 {
     enum { HORIZON_FIRST = 4, HORIZON_MAX = 1024 };
@@ -77,10 +79,12 @@ struct laying {
         held; /* of the list to be made; of the one before, 0: there was none, or nothing moved yet */
 };
 
-/* A point that is drawn on evenly, by a x t^2/2, is least far from a straight line to this share of where it will be: by .17 of that. */
+/* A point that is drawn on evenly, by a x t^2/2, is least far from a straight line to this share of where it
+ * will be: by .17 of that. */
 static const double chord = 0.83;
 
-/* As it moves now, and its speed changed since the last list was made. A point that strayed much before may stray more. */
+/* As it moves now, and its speed changed since the last list was made. A point that strayed much
+ * before may stray more. */
 static void lay_lines(struct sim *sim, const struct sim_part *part, void *context)
 {
     const struct laying *job = context;
@@ -160,7 +164,8 @@ static inline void on_line(const struct contact *c, uint32_t p, double gone, row
     *place = from + gone * (*(const row *)c->to[p] - from);
 }
 
-/* A balloon that moves and grows as a whole brings nothing nearer to itself. Of a sample of points, since any such motion will do. */
+/* A balloon that moves and grows as a whole brings nothing nearer to itself. Of a sample of points, since
+ * any such motion will do. */
 static struct contact_motion motion_of(const struct sim *sim, const struct sim_balloon *b, double gone)
 {
     enum { SAMPLE = 256 };
@@ -208,7 +213,8 @@ struct watch {
     double growth, lost; /* a point may stray growth x its reach - lost */
 };
 
-/* Distances between images of points under a motion grow with it, but the room that is wanted does not: what shrinks has less to stray. */
+/* Distances between images of points under a motion grow with it, but the room that is wanted does not: what
+ * shrinks has less to stray. */
 static struct watch watch_of(const struct contact *c, const struct contact_motion *m, double gone)
 {
     const double growth = fmin(m->growth, 1);
@@ -248,8 +254,8 @@ static void watch_part(struct sim *sim, const struct sim_part *part, void *conte
     c->share[part - sim->parts] = share;
 }
 
-/* Where nothing is near, the point that has strayed most may since have gone a step's longest way to one side, and its line to the other,
- * which growth makes no more than twice as long. */
+/* Where nothing is near, the point that has strayed most may since have gone a step's longest way to one
+ * side, and its line to the other, which growth makes no more than twice as long. */
 static bool surely_holds(struct sim *sim)
 {
     struct contact *c = sim->contact;
@@ -266,7 +272,8 @@ static bool surely_holds(struct sim *sim)
     return true;
 }
 
-/* From where it is, as it moves now; it may stray further than before. Its way of this step begins where it did. */
+/* From where it is, as it moves now; it may stray further than before. Its way of this
+ * step begins where it did. */
 static void lay_again(struct sim *sim, const struct watch *w, const struct watch *began, uint32_t p)
 {
     struct contact *c = sim->contact;

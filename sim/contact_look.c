@@ -1,4 +1,5 @@
-/* Which pairs touch on their ways: of all that the list has, or of those whose points have just been pushed. */
+/* Which pairs touch on their ways: of all that the list has, or of those whose points
+ * have just been pushed. */
 #include "common/threads.h"
 #include "common/vec3.h"
 #include "sim/contact_approach.h"
@@ -21,7 +22,8 @@ static void middle_around(const struct sim *sim, uint32_t point, double middle[3
         middle[i] /= count;
 }
 
-/* Those that begin in one place, as the two lips of a cut do, are to go apart towards where the skin of each lies. */
+/* Those that begin in one place, as the two lips of a cut do, are to go apart towards where
+ * the skin of each lies. */
 static bool stays_together(const struct sim *sim, struct contact_approach *a)
 {
     double *n = a->touch.normal, middle[3], length;
@@ -134,7 +136,8 @@ static void look_at_some(void *context, size_t index, unsigned worker)
     end_look(&sieve);
 }
 
-/* Whether no point of the pair before the place has moved: each pair is looked at by the first that has. Without branches. */
+/* Whether no point of the pair before the place has moved: each pair is looked at by the first that
+ * has. Without branches. */
 static inline bool is_first(const struct contact *c, const uint32_t *p, uint32_t place)
 {
     const unsigned char *stirred = c->stirred;

@@ -1,4 +1,5 @@
-/* The list of pairs that can come near each other: of points and triangles and of edges, from the triangles whose boxes meet. */
+/* The list of pairs that can come near each other: of points and triangles and of edges, from the
+ * triangles whose boxes meet. */
 #include "common/threads.h"
 #include "common/vec3.h"
 #include "sim/contact_finder.h"

@@ -1,4 +1,5 @@
-/* Which pairs may touch, by what is known of their lines, for contact_kernels.c: eight at a time, without branches, since nobody can guess. */
+/* Which pairs may touch, by what is known of their lines, for contact_kernels.c: eight at a time, without
+ * branches, since nobody can guess. */
 #ifndef SIM_CONTACT_SIFT_H
 #define SIM_CONTACT_SIFT_H
 

@@ -50,8 +50,9 @@ static void rub(const struct sim *sim, const struct contact_approach *a, double 
 }
 
 /*
- * With the weights and the normal n at the touch held, g(t) = n . sum w x(t) is the gap at time t. It must not end below a target, and not be smaller on the
- * way than what lets the next look pass. The velocity loses its approach.
+ * With the weights and the normal n at the touch held, g(t) = n . sum w x(t) is the gap at time t. It
+ * must not end below a target, and not be smaller on the way than what lets the next look pass. The
+ * velocity loses its approach.
  */
 static void push(struct sim *sim, const struct contact_approach *a)
 {

@@ -1,5 +1,6 @@
 /*
- * A tree of boxes over the triangles of all balloons: which of them may meet while the points move from one set of places to another.
+ * A tree of boxes over the triangles of all balloons: which of them may meet while the points move from one
+ * set of places to another.
  *
  *     if (contact_tree_open(&tree, sim, err)) ...        once: triangles that are near at rest stay near in the tree
  *     contact_tree_fit(&tree, sim, &ways);               boxes around the ways
@@ -7,11 +8,12 @@
  *     contact_tree_pairs(&tree, sim, take, context);     every two leaves whose boxes meet
  *     contact_tree_close(&tree);
  *
- * Neighbours in one sheet always have boxes that meet. So a connected patch whose triangles all look to one side of some direction, all the
- * way, is not compared with itself: it is the graph of a function, and does not cross itself (Volino & Magnenat-Thalmann, "Efficient
- * self-collision detection", Computer Graphics Forum 13 (1994) 155). That the normal of a triangle looks to that side all the way is known from
- * three vectors: moving in straight lines it is n0 (1-t)^2 + (n0 + n1 - d) t(1-t) + n1 t^2, d the normal of the differences (Tang, Curtis, Yoon &
- * Manocha, "ICCD", IEEE TVCG 15 (2009) 544).
+ * Neighbours in one sheet always have boxes that meet. So a connected patch whose triangles all look to one
+ * side of some direction, all the way, is not compared with itself: it is the graph of a function, and does
+ * not cross itself (Volino & Magnenat-Thalmann, "Efficient self-collision detection", Computer Graphics Forum
+ * 13 (1994) 155). That the normal of a triangle looks to that side all the way is known from three vectors:
+ * moving in straight lines it is n0 (1-t)^2 + (n0 + n1 - d) t(1-t) + n1 t^2, d the normal of the differences
+ * (Tang, Curtis, Yoon & Manocha, "ICCD", IEEE TVCG 15 (2009) 544).
  */
 #ifndef SIM_CONTACT_TREE_H
 #define SIM_CONTACT_TREE_H
@@ -22,7 +24,8 @@
 
 enum { CONTACT_JOBS = 4096 }; /* that a search is divided into at the most */
 
-/* What a leaf stands for, so that nothing is looked at twice: points and edges of its triangles, each in one leaf. */
+/* What a leaf stands for, so that nothing is looked at twice: points and edges of its
+ * triangles, each in one leaf. */
 struct contact_leaf {
     uint32_t point_begin, point_end; /* of tree->leaf_point */
     uint32_t edge_begin, edge_end;   /* of tree->leaf_edge */
@@ -40,7 +43,8 @@ struct contact_node {
     uint32_t number;     /* of a leaf */
 };
 
-/* Triangles in a leaf at the most, and sides that they have. Of fewer more leaves meet, of more they have more boxes that do not. */
+/* Triangles in a leaf at the most, and sides that they have. Of fewer more leaves meet, of more they have
+ * more boxes that do not. */
 enum { CONTACT_LEAF = 10, CONTACT_BESIDE = 3 * CONTACT_LEAF };
 
 struct contact_tree {
@@ -48,9 +52,9 @@ struct contact_tree {
     uint32_t node_count, leaf_count;
     uint32_t *order; /* [triangle_count] triangles as the leaves list them; owned */
     uint32_t *leaf;  /* [triangle_count] the node that lists it; owned */
-    uint32_t (*beside)
-        [CONTACT_BESIDE]; /* [leaves] nodes of leaves across their triangles' sides, the others itself; owned */
-    uint32_t *root;       /* [balloon_count] owned */
+    /* [leaves] nodes of leaves across their triangles' sides, the others itself; owned. */
+    uint32_t (*beside)[CONTACT_BESIDE];
+    uint32_t *root;                          /* [balloon_count] owned */
     struct contact_leaf *leaves;             /* [leaf_count] owned */
     uint32_t *leaf_point, *leaf_edge;        /* [point_count], [edge_count] owned */
     unsigned char *point_taken, *edge_taken; /* [point_count], [edge_count] for finding that; owned */
@@ -63,7 +67,8 @@ struct contact_tree {
     uint32_t fit_count;
 };
 
-/* The boxes of a leaf: of its triangles, in the tree's order, and of the points and edges that it stands for. */
+/* The boxes of a leaf: of its triangles, in the tree's order, and of the points and
+ * edges that it stands for. */
 struct contact_cell {
     uint32_t leaf;
     struct contact_group triangles, points, edges;
@@ -84,16 +89,19 @@ void contact_tree_fit(struct contact_tree *tree, struct sim *sim, const struct c
 void contact_tree_cell(const struct contact_tree *tree, const struct sim *sim, uint32_t leaf,
                        struct contact_cell *cell);
 
-/* Finds anew what the leaves stand for, of the triangles that are active; before the first contact_tree_fit(), and when sim->broken has changed. */
+/* Finds anew what the leaves stand for, of the triangles that are active; before the first
+ * contact_tree_fit(), and when sim->broken has changed. */
 void contact_tree_share(struct contact_tree *tree, const struct sim *sim);
 
-/* Calls take for each two leaves, and each with itself, whose boxes meet and that are not of one patch, on any worker and in any order. */
+/* Calls take for each two leaves, and each with itself, whose boxes meet and that are not of one patch, on
+ * any worker and in any order. */
 void contact_tree_pairs(struct contact_tree *tree, struct sim *sim,
                         void (*take)(void *context, unsigned worker, uint32_t a, uint32_t b), void *context);
 
-/* For ways that have changed of a few points, with the triangles around these: boxes only grow until contact_tree_fit() comes again. False where that is
- * better, since there are too many patches that no longer look to one side. Then the pairs that come to them with those patches,
- * some of which are known; and for each point, which can be done by several workers at once, the leaves whose boxes meet a box. */
+/* For ways that have changed of a few points, with the triangles around these: boxes only grow until
+ * contact_tree_fit() comes again. False where that is better, since there are too many patches that no longer
+ * look to one side. Then the pairs that come to them with those patches, some of which are known; and for
+ * each point, which can be done by several workers at once, the leaves whose boxes meet a box. */
 bool contact_tree_refit(struct contact_tree *tree, struct sim *sim, const struct contact_ways *ways,
                         const uint32_t *points, uint32_t point_count, const uint32_t *triangles,
                         uint32_t triangle_count);

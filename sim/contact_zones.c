@@ -40,7 +40,8 @@ static void add_up(struct sim *sim)
     }
 }
 
-/* A zone that pins hold, or that would run into an obstacle, stays where it was: there it was clear of everything. */
+/* A zone that pins hold, or that would run into an obstacle, stays where it was: there it
+ * was clear of everything. */
 static void hold(struct sim *sim)
 {
     struct contact *c = sim->contact;

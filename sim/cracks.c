@@ -58,7 +58,8 @@ static void rest_normal(const struct sim *sim, const struct sim_balloon *b, cons
     crack_unit(normal);
 }
 
-/* The spokes into whole skin that are nearest to 34 degrees off the heading, to either side; false: there are none. */
+/* The spokes into whole skin that are nearest to 34 degrees off the heading, to either side;
+ * false: there are none. */
 static bool find_fork(struct sim *sim, struct sim_balloon *b, const struct crack_tip *tip,
                       const struct ring *ring, int spoke[2])
 {

@@ -1,15 +1,17 @@
 /*
- * SUNDIALS CVODE (Hindmarsh et al., ACM TOMS 31 (2005) 363): multistep methods that choose step and order. cvode-adams, up to
- * order 12 by fixed-point iteration, for what moves freely; cvode-bdf, up to order 5 by Newton with matrix-free GMRES, for
- * stiff springs: Jacobian products are the exact ones (jacobian.h), preconditioned by points.
+ * SUNDIALS CVODE (Hindmarsh et al., ACM TOMS 31 (2005) 363): multistep methods that choose step and order.
+ * cvode-adams, up to order 12 by fixed-point iteration, for what moves freely; cvode-bdf, up to order 5 by
+ * Newton with matrix-free GMRES, for stiff springs: Jacobian products are the exact ones (jacobian.h),
+ * preconditioned by points.
  *
- * The vector is all positions, all velocities, then the scalars of the state. Its norm is that of weights.h, so the
- * tolerance means what it means to rk-adaptive; scalars count by their own size at the start. Scalars that only record are
- * integrated afterwards by Gauss's rule over the interpolant, three forces a step, so that the run does not notice them.
+ * The vector is all positions, all velocities, then the scalars of the state. Its norm is that of weights.h,
+ * so the tolerance means what it means to rk-adaptive; scalars count by their own size at the start. Scalars
+ * that only record are integrated afterwards by Gauss's rule over the interpolant, three forces a step, so
+ * that the run does not notice them.
  *
- * What the library remembers cannot be saved. So a run of it starts anew at every event, and after RUN_STEPS steps; the
- * blocks hold the state at its start, and a state that was restored is reached again by repeating the steps since then, bit
- * by bit.
+ * What the library remembers cannot be saved. So a run of it starts anew at every event, and after RUN_STEPS
+ * steps; the blocks hold the state at its start, and a state that was restored is reached again by repeating
+ * the steps since then, bit by bit.
  */
 #include "sim/cvode_solver.h"
 #include "sim/methods.h"

@@ -1,6 +1,6 @@
 /*
- * Newton's equations of a BDF step with its coefficient g, (1 - g J) z = r, J = [0 1; K/m D/m]. The lower row times m and the
- * upper one put into it are
+ * Newton's equations of a BDF step with its coefficient g, (1 - g J) z = r, J = [0 1; K/m D/m]. The lower row
+ * times m and the upper one put into it are
  *     (m - g D - g^2 K) z_v = m r_v + g K r_x,   z_x = r_x + g z_v,
  * and the preconditioner is the one that solver.h has for just that.
  */

@@ -1,4 +1,5 @@
-/* What CVODE solves its equations with (cvode.c): a fixed point, or Newton with GMRES on exact Jacobian products. */
+/* What CVODE solves its equations with (cvode.c): a fixed point, or Newton with GMRES on
+ * exact Jacobian products. */
 #ifndef SIM_CVODE_SOLVER_H
 #define SIM_CVODE_SOLVER_H
 
@@ -23,7 +24,8 @@ static inline double (*cvode_rows(N_Vector y))[4]
 /* The sim's positions and velocities become those of y. */
 void cvode_load_points(struct sim *sim, N_Vector y);
 
-/* Gives `memory` (a CVODE with sim as its user data) its solver. False when memory is not enough; close *solver all the same. */
+/* Gives `memory` (a CVODE with sim as its user data) its solver. False when memory is not enough;
+ * close *solver all the same. */
 bool cvode_solver_open(struct sim *sim, void *memory, N_Vector y, SUNContext context, bool newton,
                        struct cvode_solver **solver);
 void cvode_solver_close(struct sim *sim, struct cvode_solver *solver); /* after CVodeFree(); NULL is fine */

@@ -12,8 +12,8 @@ static bool is_nowhere(const struct sim *sim, uint32_t p)
     return false;
 }
 
-/* The first point that is nowhere, or else the one with the most energy, and its balloon. What is kept for points to come has
- * none. */
+/* The first point that is nowhere, or else the one with the most energy, and its balloon. What is kept for
+ * points to come has none. */
 static uint32_t worst_point(const struct sim *sim, const struct sim_balloon **balloon)
 {
     uint32_t worst = 0;
@@ -34,7 +34,8 @@ static uint32_t worst_point(const struct sim *sim, const struct sim_balloon **ba
     return worst;
 }
 
-/* " on an edge to point 7 of length 3e9": of the point's active edges the longest, or one that has no length any more. */
+/* " on an edge to point 7 of length 3e9": of the point's active edges the longest, or one that
+ * has no length any more. */
 static void describe_edge(const struct sim *sim, const struct sim_balloon *b, uint32_t p, char *text,
                           size_t size)
 {

@@ -28,39 +28,42 @@ enum effect_phase {
 struct effect {
     const char *name; /* of the scene's block that calls for it */
     enum effect_phase phase;
-    /* One of them: whether a balloon's block calls for it, which makes a hook a balloon; or the scene's, which makes one hook whose
-     * balloon is the first. */
+    /* One of them: whether a balloon's block calls for it, which makes a hook a balloon; or the scene's,
+     * which makes one hook whose balloon is the first. */
     bool (*wanted)(const struct scene_balloon *balloon);
     bool (*scene_wanted)(const struct scene *scene);
-    /* Makes what the effect keeps for a balloon, when the tables are complete and before any hook; frees it, also where that
-     * failed. NULL: nothing. */
+    /* Makes what the effect keeps for a balloon, when the tables are complete and before any hook; frees it,
+     * also where that failed. NULL: nothing. */
     enum status (*open)(struct sim *sim, struct sim_balloon *balloon, struct error *err);
     void (*close)(struct sim *sim, struct sim_balloon *balloon);
     void (*apply)(struct sim *sim, struct sim_balloon *balloon); /* NULL: nothing that a kernel does not do */
-    /* EFFECT_FORCES, after apply: adds to the forces on a part's points, on that part's worker, and looks at nothing of other parts that moves:
-     * their points may be on their way already. Once for each hook. NULL: nothing. */
+    /* EFFECT_FORCES, after apply: adds to the forces on a part's points, on that part's worker, and
+     * looks at nothing of other parts that moves: their points may be on their way already. Once for
+     * each hook. NULL: nothing. */
     void (*finish)(struct sim *sim, const struct sim_balloon *balloon, const struct sim_part *part);
-    /* EFFECT_MOVED: corrects sim->position and velocity after a step from sim->before; says so by sim->changed. */
+    /* EFFECT_MOVED: corrects sim->position and velocity after a step from sim->before;
+     * says so by sim->changed. */
     enum status (*settle)(struct sim *sim, struct error *err);
     /* EFFECT_FORCES: at the end of each accepted step too. NULL: nothing. */
     void (*after)(struct sim *sim, struct sim_balloon *balloon);
     /* What it remembers from step to step beyond sim->scalar, as blocks; returns how many. NULL: nothing. */
     size_t (*blocks)(struct sim *sim, struct sim_balloon *balloon, struct sim_block *blocks);
-    /* After a step, whether it can go on: STATUS_DIVERGED with the reason. NULL: always.
-     * For the ledger: what it holds now; and what it takes a second for good (dissipated) and brings from outside (work), at the
+    /* After a step, whether it can go on: STATUS_DIVERGED with the reason. NULL: always. For the ledger: what
+     * it holds now; and what it takes a second for good (dissipated) and brings from outside (work), at the
      * current state, each added. NULL: nothing. */
     enum status (*check)(struct sim *sim, struct sim_balloon *balloon, struct error *err);
     double (*energy)(struct sim *sim, struct sim_balloon *balloon);
     void (*power)(struct sim *sim, struct sim_balloon *balloon, double *dissipated, double *work);
-    /* Likewise: what goes for good as an active edge lets go or is cut, or an active triangle goes. NULL: nothing. */
+    /* Likewise: what goes for good as an active edge lets go or is cut, or an active
+     * triangle goes. NULL: nothing. */
     double (*edge_energy)(const struct sim *sim, const struct sim_balloon *balloon, uint32_t edge);
     double (*triangle_energy)(const struct sim *sim, const struct sim_balloon *balloon, uint32_t triangle);
-    /* EFFECT_FORCES: adds to df a K dx + b D dv (jacobian.h), the derivatives of its own forces at the current state. NULL:
-     * its forces depend on neither positions nor velocities. */
+    /* EFFECT_FORCES: adds to df a K dx + b D dv (jacobian.h), the derivatives of its own forces at the
+     * current state. NULL: its forces depend on neither positions nor velocities. */
     void (*product)(struct sim *sim, struct sim_balloon *balloon, double a, double (*dx)[4], double b,
                     double (*dv)[4], double (*df)[4]);
-    /* EFFECT_FORCES: adds to rows (guard.h) by how much its forces on each point can change; guard_outdated() when that is no
-     * longer true. NULL: they are constant, and do no work. */
+    /* EFFECT_FORCES: adds to rows (guard.h) by how much its forces on each point can change; guard_outdated()
+     * when that is no longer true. NULL: they are constant, and do no work. */
     void (*bound)(const struct sim *sim, const struct sim_balloon *balloon, const struct guard_rows *rows);
     bool damps; /* EFFECT_FORCES: its forces depend on velocities */
     const char *source;
@@ -77,19 +80,20 @@ struct effect_hook {
     struct sim_balloon *balloon;
 };
 
-/* Fills sim->hooks with what the scene calls for and opens it (STATUS_NO_MEMORY, or what an effect's open says); closes it; runs
- * the hooks of one phase. */
+/* Fills sim->hooks with what the scene calls for and opens it (STATUS_NO_MEMORY, or what an effect's open
+ * says); closes it; runs the hooks of one phase. */
 enum status effects_resolve(struct sim *sim, struct error *err);
 void effects_close(struct sim *sim);
 void effects_run(struct sim *sim, enum effect_phase phase);
 enum status effects_settle(struct sim *sim, struct error *err); /* EFFECT_MOVED */
 
-/* EFFECT_FORCES in two goes: all but what is left to finish, by hooks from the returned one on; and that, of one part. */
+/* EFFECT_FORCES in two goes: all but what is left to finish, by hooks from the returned one on;
+ * and that, of one part. */
 size_t effects_begin_forces(struct sim *sim);
 void effects_finish_forces(struct sim *sim, const struct sim_part *part, size_t first);
 
-/* Of all effects together (struct effect): whether all can go on, their blocks, the energy that they hold, their powers, which are added,
- * and what goes with an edge or a triangle. */
+/* Of all effects together (struct effect): whether all can go on, their blocks, the energy that they hold,
+ * their powers, which are added, and what goes with an edge or a triangle. */
 enum status effects_check(struct sim *sim, struct error *err);
 size_t effects_blocks(struct sim *sim, struct sim_block *blocks);
 double effects_energy(struct sim *sim);

@@ -1,4 +1,5 @@
-/* A pressure that is given, on areas (areas.h): what the paper's pressure is where points are alike, on any mesh. */
+/* A pressure that is given, on areas (areas.h): what the paper's pressure is where points
+ * are alike, on any mesh. */
 #include "common/vec3.h"
 #include "sim/areas.h"
 #include "sim/effects.h"

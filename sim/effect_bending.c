@@ -1,4 +1,5 @@
-/* What resists being bent (bending.h): its hinges are made when a simulation is opened. The loops are bending_kernels.c's. */
+/* What resists being bent (bending.h): its hinges are made when a simulation is opened. The loops
+ * are bending_kernels.c's. */
 #include "common/array.h"
 #include "common/vec3.h"
 #include "sim/bending_kernels.h"
@@ -26,8 +27,8 @@ static bool wanted(const struct scene_balloon *balloon)
     return balloon->bending.on;
 }
 
-/* Of a triangle and its corner across from an edge: to the hinge as its first where the triangle runs along the edge, else as its second.
- * How many it has then. */
+/* Of a triangle and its corner across from an edge: to the hinge as its first where the triangle runs along
+ * the edge, else as its second. How many it has then. */
 static int add_wing(const struct sim *sim, struct bending_corners *c, uint32_t triangle_begin, uint32_t t,
                     int corner, uint32_t edge)
 {
@@ -135,8 +136,8 @@ static bool make_reach(struct sim *sim, const struct sim_balloon *b)
     return true;
 }
 
-/* What the guard takes for the steepest must hold what there is: with so much to spare that it is seldom asked again, and moved back only where it
- * has become far too much. */
+/* What the guard takes for the steepest must hold what there is: with so much to spare that it is seldom
+ * asked again, and moved back only where it has become far too much. */
 static const double spare = 1.15, too_much = 2;
 
 static bool make_passes(struct sim *sim, const struct sim_balloon *b, struct bending *h)
@@ -288,8 +289,8 @@ static void product(struct sim *sim, struct sim_balloon *balloon, double a, doub
 }
 
 /*
- * With g the angle's gradient, dF/dx = -w (cos g g^T + sin dg/dx) is at most w (|cos| + |sin|) |g|^2 <= 1.42 w |g|^2 on the hinge's four
- * points, dg/dx being no more than |g|^2; and dF/dv is w damping g g^T.
+ * With g the angle's gradient, dF/dx = -w (cos g g^T + sin dg/dx) is at most w (|cos| + |sin|) |g|^2 <= 1.42
+ * w |g|^2 on the hinge's four points, dg/dx being no more than |g|^2; and dF/dv is w damping g g^T.
  */
 static void bound(const struct sim *sim, const struct sim_balloon *b, const struct guard_rows *rows)
 {

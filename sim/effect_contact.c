@@ -73,7 +73,8 @@ static bool allocate(struct sim *sim, struct contact *c)
            c->drift && c->share;
 }
 
-/* Whether the edge a b passes through the triangle: its ends on two sides, and its line between the corners. */
+/* Whether the edge a b passes through the triangle: its ends on two sides, and its
+ * line between the corners. */
 static bool passes(double (*x)[4], const uint32_t *edge, const uint32_t *t)
 {
     double side[2], turn[3], n[3], a[3], b[3], cross[3], way[3];

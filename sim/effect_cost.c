@@ -53,7 +53,8 @@ static enum status go_to(const struct subject *s, struct course *c, double time,
     return status;
 }
 
-/* How far the scene gets in the time that a run may take, in whole stretches of whole steps; and when it first breaks. */
+/* How far the scene gets in the time that a run may take, in whole stretches of whole steps;
+ * and when it first breaks. */
 static enum status find_span(const struct subject *s, double limit, struct effect_cost_table *table,
                              double *seconds, struct error *err)
 {

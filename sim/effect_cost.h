@@ -1,13 +1,15 @@
 /*
- * What each effect costs on the user's own scene, and what it does to the answer: the scene is run whole and without one effect after the other.
+ * What each effect costs on the user's own scene, and what it does to the answer: the scene is run whole and
+ * without one effect after the other.
  *
  *     struct effect_cost_table *table = calloc(1, sizeof *table);
  *     if (effect_cost_measure(&scene, meshes, &options, table, err)) ...
  *     effect_cost_say(table, &table->rows[i], text, sizeof text)
  *
- * The whole and the rest go through the same stretches of time in turns, so that other programs weigh on both alike; seconds are the thread's
- * own on a processor, and of several goes through a stretch the shortest counts. States are compared at the ends of the
- * stretches until something breaks in one of the two: from there on single runs say nothing point by point.
+ * The whole and the rest go through the same stretches of time in turns, so that other programs weigh on both
+ * alike; seconds are the thread's own on a processor, and of several goes through a stretch the shortest
+ * counts. States are compared at the ends of the stretches until something breaks in one of the two: from
+ * there on single runs say nothing point by point.
  */
 #ifndef SIM_EFFECT_COST_H
 #define SIM_EFFECT_COST_H
@@ -16,12 +18,14 @@
 
 enum { EFFECT_COST_ROWS_MAX = 32, EFFECT_COST_STRETCHES = 16 };
 
-/* Below this share of the radius a change cannot be seen: a tenth of a pixel, where the radius has a hundred. */
+/* Below this share of the radius a change cannot be seen: a tenth of a pixel, where
+ * the radius has a hundred. */
 #define EFFECT_COST_VISIBLE 1e-3
 
 struct effect_cost_options {
     double seconds; /* about how much time all may take */
-    /* Asked between steps, with the share that is done; false ends it all with STATUS_INTERRUPTED. NULL: nobody asks. */
+    /* Asked between steps, with the share that is done; false ends it all with
+     * STATUS_INTERRUPTED. NULL: nobody asks. */
     bool (*go_on)(void *context, double done);
     void *context;
 };
@@ -54,7 +58,8 @@ struct effect_cost_table {
     int goes; /* through each stretch */
 };
 
-/* meshes as for sim_open(). Errors: those of sim_open() and sim_step() for the whole scene; STATUS_INTERRUPTED; STATUS_NO_MEMORY. */
+/* meshes as for sim_open(). Errors: those of sim_open() and sim_step() for the whole scene;
+ * STATUS_INTERRUPTED; STATUS_NO_MEMORY. */
 enum status effect_cost_measure(const struct scene *scene, const struct mesh *meshes,
                                 const struct effect_cost_options *options, struct effect_cost_table *table,
                                 struct error *err);

@@ -1,9 +1,11 @@
 /*
- * The air's resistance, triangle by triangle: what comes at it with the speed q along its normal pushes with r C q |q| A/2 along that
- * normal, a third on each corner. With N twice the area vector and w the wind less the mean of the corners' speeds,
+ * The air's resistance, triangle by triangle: what comes at it with the speed q along its normal pushes with
+ * r C q |q| A/2 along that normal, a third on each corner. With N twice the area vector and w the wind less
+ * the mean of the corners' speeds,
  *     F = r C/4 (w . N) |w . N| N/|N|^2.
- * A plate square to the wind has the drag coefficient C, and so has a sphere, whose two halves count: its sum of |cos|^3 over
- * the area is that of its cross-section. Forces are worked out where the triangles' normals are (forces.c), which brings nearly half of the work.
+ * A plate square to the wind has the drag coefficient C, and so has a sphere, whose two halves count: its sum
+ * of |cos|^3 over the area is that of its cross-section. Forces are worked out where the triangles' normals
+ * are (forces.c), which brings nearly half of the work.
  */
 #include "common/vec3.h"
 #include "sim/effects.h"
@@ -14,8 +16,8 @@
 #include <stdlib.h>
 
 struct air_drag {
-    double
-        bound_speed; /* the fastest that skin and air were taken to pass each other, for the guard's bound; state */
+    /* The fastest that skin and air were taken to pass each other, for the guard's bound; state. */
+    double bound_speed;
 };
 
 static bool wanted(const struct scene *scene)
@@ -84,7 +86,8 @@ struct product {
     double (*dx)[4], (*dv)[4], (*df)[4];
 };
 
-/* With Q = w . N: dF = r C/4 [2 |Q| dQ N + Q |Q| (dN - 2 N (N . dN)/|N|^2)]/|N|^2, dQ = w . dN - dv . N, dN = d1 x s2 + s1 x d2. */
+/* With Q = w . N: dF = r C/4 [2 |Q| dQ N + Q |Q| (dN - 2 N (N . dN)/|N|^2)]/|N|^2, dQ = w . dN - dv . N,
+ * dN = d1 x s2 + s1 x d2. */
 static void product_at(struct sim *sim, const struct sim_part *part, const struct product *product,
                        uint32_t t)
 {
@@ -147,8 +150,9 @@ static double fastest(const struct sim *sim)
     return sqrt(most);
 }
 
-/* |dF/dv| = r C A |w . n| on a triangle, a third of it at each corner, at twice the speed that any has: until then it is asked no more. What
- * moves no faster than the wind is pushed by r C/2 A |2 wind|^2 at the most; what moves faster is held back. */
+/* |dF/dv| = r C A |w . n| on a triangle, a third of it at each corner, at twice the speed that any has: until
+ * then it is asked no more. What moves no faster than the wind is pushed by r C/2 A |2 wind|^2 at the most;
+ * what moves faster is held back. */
 static void bound(const struct sim *sim, const struct sim_balloon *balloon, const struct guard_rows *rows)
 {
     (void)balloon;
@@ -172,8 +176,9 @@ static bool is_bounded(const struct sim *sim, double least, double most)
     return most <= 2 * sim->drag->bound_speed && least >= sim->drag->bound_speed / 8;
 }
 
-/* Where the sweep has seen how far points moved in this step, and so how fast they are, mostly without a look at each: with v the fastest of
- * them and w the wind's speed, the fastest that any passes the air is from |v - w| to v + w. The margin is for rounding. */
+/* Where the sweep has seen how far points moved in this step, and so how fast they are, mostly without a look
+ * at each: with v the fastest of them and w the wind's speed, the fastest that any passes the air is from |v
+ * - w| to v + w. The margin is for rounding. */
 static bool is_surely_bounded(const struct sim *sim)
 {
     const double v = sweep_saw_farthest(sim) / sim->taken, w = vec3_length(sim->scene->drag.wind);

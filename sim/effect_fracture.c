@@ -1,4 +1,5 @@
-/* What tears, how its strength is scattered, and what the gas and the checkpoint are told: fracture.h is the rule. */
+/* What tears, how its strength is scattered, and what the gas and the checkpoint are told:
+ * fracture.h is the rule. */
 #include "common/vec3.h"
 #include "sim/checkpoint.h"
 #include "sim/effects.h"
@@ -63,7 +64,8 @@ static void measure_triangles(const struct sim *sim, const struct sim_balloon *b
     }
 }
 
-/* Patches: from the first triangle that has none, all that hang together within 0.15 R of it; scraps join a neighbour. */
+/* Patches: from the first triangle that has none, all that hang together within 0.15 R of it;
+ * scraps join a neighbour. */
 static void make_patches(const struct sim_balloon *b, uint32_t *queue)
 {
     struct fracture *f = b->fracture;
@@ -103,7 +105,8 @@ static void make_patches(const struct sim_balloon *b, uint32_t *queue)
     }
 }
 
-/* Of shear waves at rest: sqrt(mu/rho), or that of a lattice of springs: its shear modulus is sqrt(3)/4 k and its mass by area
+/* Of shear waves at rest: sqrt(mu/rho), or that of a lattice of springs: its shear modulus is sqrt(3)/4
+ * k and its mass by area
  * 2 m/(sqrt 3 r^2) (Seung & Nelson, Phys. Rev. A 38 (1988) 1005), so that c = r sqrt(3 k/(8 m)). */
 static double wave_speed(const struct sim *sim, const struct sim_balloon *b)
 {

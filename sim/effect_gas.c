@@ -124,8 +124,8 @@ void gas_stream(struct sim *sim, const struct sim_balloon *balloon, double rate,
                                     (warmth / (gas->pressure * gas->volume) - 1 / gas_amount(sim, gas));
 }
 
-/* What the pump brings a second, or, below 0, draws out. Near its goal, and as the pressure nears the air's, it slows down, so that neither is
- * overshot. */
+/* What the pump brings a second, or, below 0, draws out. Near its goal, and as the pressure nears the air's,
+ * it slows down, so that neither is overshot. */
 static double pumped(const struct sim *sim, const struct sim_balloon *b, const struct gas_drive *in)
 {
     const struct gas *gas = b->gas;
@@ -169,8 +169,9 @@ static void apply(struct sim *sim, struct sim_balloon *b)
     gas_let_out(sim, b);
 }
 
-/* The gas is gone once the holes are wider than a sixth of a sphere of its volume, 2 R^2: they have then grown by a radius within the time
- * that a collapsing skin takes for that, and what is inside no longer knows of one pressure. */
+/* The gas is gone once the holes are wider than a sixth of a sphere of its volume, 2 R^2: they have then
+ * grown by a radius within the time that a collapsing skin takes for that, and what is inside no longer
+ * knows of one pressure. */
 static bool is_gone(const struct gas *gas)
 {
     const double radius = cbrt(3 * fmax(gas->volume, 0) / (4 * M_PI));

@@ -1,4 +1,5 @@
-/* All points fall alike. What gas weighs, and the air that it stands in for, is the gas's own business (effect_gas.c). */
+/* All points fall alike. What gas weighs, and the air that it stands in for, is the gas's own
+ * business (effect_gas.c). */
 #include "common/vec3.h"
 #include "sim/effects.h"
 #include "sim/guard.h"

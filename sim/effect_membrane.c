@@ -1,5 +1,5 @@
-/* The skin as a membrane, in place of its springs (membrane.h): what is made of the scene's block when a simulation is opened, and
- * what the guard and the implicit methods ask. */
+/* The skin as a membrane, in place of its springs (membrane.h): what is made of the scene's block when a
+ * simulation is opened, and what the guard and the implicit methods ask. */
 #include "common/threads.h"
 #include "common/vec3.h"
 #include "sim/effects.h"
@@ -63,7 +63,8 @@ static struct membrane_law law_of(const struct scene_membrane *block)
     return law;
 }
 
-/* A triangle's frame at rest: the first axis along its first side. A triangle without area resists nothing and weighs nothing. */
+/* A triangle's frame at rest: the first axis along its first side. A triangle without area resists
+ * nothing and weighs nothing. */
 static void set_rest(struct sim *sim, const struct sim_balloon *b, uint32_t t, double rest[4])
 {
     const uint32_t *p = sim->triangle_point[t];
@@ -81,7 +82,8 @@ static void set_rest(struct sim *sim, const struct sim_balloon *b, uint32_t t, d
     rest[3] = m->modulus * m->thickness * twice / 2;
 }
 
-/* A third of each triangle's mass at its corners. What carries no skin keeps the mass that the scene gives points. */
+/* A third of each triangle's mass at its corners. What carries no skin keeps the mass that
+ * the scene gives points. */
 static void set_masses(struct sim *sim, const struct sim_balloon *b)
 {
     const double density = b->scene->membrane.density, thickness = b->membrane->thickness;
@@ -94,8 +96,8 @@ static void set_masses(struct sim *sim, const struct sim_balloon *b)
             sim->mass[sim->triangle_point[t][k]] += density * thickness * membrane_rest_area(b, t) / 3;
 }
 
-/* With these the sum of w |x_p - x_q|^2 over the edges is that of area |dF|^2 over the triangles (Pinkall and Polthier, Experimental
- * Mathematics 2, 1993). Leaving out negative ones only makes it larger. */
+/* With these the sum of w |x_p - x_q|^2 over the edges is that of area |dF|^2 over the triangles (Pinkall and
+ * Polthier, Experimental Mathematics 2, 1993). Leaving out negative ones only makes it larger. */
 static void set_weights(const struct sim *sim, const struct sim_balloon *b)
 {
     double *weight = b->membrane->edge_weight;
@@ -184,8 +186,9 @@ static void product(struct sim *sim, struct sim_balloon *balloon, double a, doub
 /* Beyond these no law of rubber holds, or gets any stiffer. */
 static const double most_a = 1e6, least_d = MEMBRANE_CRUSHED / 2;
 
-/* The guard's range around a strain, which must hold what there is: with so much room that it is seldom asked again, and moved back only
- * where it has become far too wide. Near a law's limit a little more of stretch is a lot more of stiffness. */
+/* The guard's range around a strain, which must hold what there is: with so much room that it is seldom asked
+ * again, and moved back only where it has become far too wide. Near a law's limit a little more of stretch is
+ * a lot more of stiffness. */
 static const double room[2] = {1.15, 1.3}, too_wide = 2;
 
 static void watch(struct sim *sim, struct sim_balloon *b)

@@ -1,4 +1,5 @@
-/* Needles: points that move on their own and start a tear where they meet the skin, whichever of the two moves. */
+/* Needles: points that move on their own and start a tear where they meet the skin,
+ * whichever of the two moves. */
 #include "common/vec3.h"
 #include "sim/ccd.h"
 #include "sim/effects.h"
@@ -30,7 +31,8 @@ struct hole {
     uint32_t triangle;
 };
 
-/* By how much the needle's way is beside that of the triangle, along one of the axes: so much they must come nearer to meet. */
+/* By how much the needle's way is beside that of the triangle, along one of the axes: so much they
+ * must come nearer to meet. */
 static double apart(const struct sim *sim, const uint32_t *p, const struct prick *prick)
 {
     double most = -INFINITY;
@@ -138,7 +140,8 @@ static void start_tear(struct sim *sim, const struct prick *prick, const struct 
     sim_prick(sim, hole->triangle, place);
 }
 
-/* Nothing is looked at while needles are further from all of the skin than they and it have moved since they were. */
+/* Nothing is looked at while needles are further from all of the skin than they and it have
+ * moved since they were. */
 static void apply(struct sim *sim, struct sim_balloon *balloon)
 {
     (void)balloon;

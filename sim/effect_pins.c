@@ -1,4 +1,5 @@
-/* A patch of the skin that is held where it is: no force moves it. The last of all effects, since it takes away what the others add. */
+/* A patch of the skin that is held where it is: no force moves it. The last of all effects, since it takes
+ * away what the others add. */
 #include "sim/effects.h"
 #include "sim/patch.h"
 #include "sim/pins.h"

@@ -1,7 +1,8 @@
 /*
- * The slip unit of the paper's figure 1, in series with each spring: it holds until the spring pulls or pushes with more than
- * y + H s, and then slips, by s in all, until it holds again (perfectly plastic at H = 0, else with linear hardening). What has slipped is
- * part of the edge's length at rest for good. It slips at the end of a step, at once: rate-independent.
+ * The slip unit of the paper's figure 1, in series with each spring: it holds until the spring pulls or
+ * pushes with more than y + H s, and then slips, by s in all, until it holds again (perfectly plastic at H =
+ * 0, else with linear hardening). What has slipped is part of the edge's length at rest for good. It slips at
+ * the end of a step, at once: rate-independent.
  */
 #include "sim/effects.h"
 #include "sim/guard.h"
@@ -46,7 +47,8 @@ struct slide {
     atomic_bool any;
 };
 
-/* k (e - ds) = y + H (s + ds) for the way ds that is still to go, e the spring's elongation; no edge slips to less than nothing. */
+/* k (e - ds) = y + H (s + ds) for the way ds that is still to go, e the spring's elongation; no edge
+ * slips to less than nothing. */
 static bool slip_edge(struct sim *sim, struct sim_balloon *b, uint32_t e)
 {
     if (!sim->edge_active[e])
@@ -74,7 +76,8 @@ static void slip_part(struct sim *sim, const struct sim_part *part, void *contex
         atomic_store(&slide->any, true);
 }
 
-/* Where accounts are kept, part by part: what is added to them comes in the same order for any number of workers. */
+/* Where accounts are kept, part by part: what is added to them comes in the same order for
+ * any number of workers. */
 static void apply(struct sim *sim, struct sim_balloon *b)
 {
     struct slide slide = {.balloon = b};

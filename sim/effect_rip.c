@@ -1,6 +1,6 @@
-/* "An artificial rip is introduced after the balloon expands to the point where other rips start to occur. [It] allows
- * the surface to break up into larger pieces" (paper 4.1). The rip cuts the edges that cross a stretch of a great
- * circle around the balloon's centre. */
+/* "An artificial rip is introduced after the balloon expands to the point where other rips start to occur.
+ * [It] allows the surface to break up into larger pieces" (paper 4.1). The rip cuts the edges that cross a
+ * stretch of a great circle around the balloon's centre. */
 #include "common/vec3.h"
 #include "sim/effects.h"
 #include "sim/fracture.h"
@@ -40,8 +40,8 @@ static void centre_now(const struct sim *sim, const struct sim_balloon *balloon,
     }
 }
 
-/* Cuts the active edges whose ends lie on two sides of the plane through the centre, spanned by place and direction, and whose
- * middle is within half an arc of place: the angle is the cut's length in mean radii. */
+/* Cuts the active edges whose ends lie on two sides of the plane through the centre, spanned by place and
+ * direction, and whose middle is within half an arc of place: the angle is the cut's length in mean radii. */
 static void cut(struct sim *sim, const struct sim_balloon *balloon)
 {
     const struct scene_rip *rip = &balloon->scene->rip;

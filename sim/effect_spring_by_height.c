@@ -1,5 +1,5 @@
-/* "Spring constants may not be the same for all springs. They can be set as a function of the height of the balloon",
- * which makes it expand in the middle more than at the top or bottom (paper 3.1). */
+/* "Spring constants may not be the same for all springs. They can be set as a function of the height of the
+ * balloon", which makes it expand in the middle more than at the top or bottom (paper 3.1). */
 #include "sim/effects.h"
 
 #include <math.h>
@@ -9,7 +9,8 @@ static bool wanted(const struct scene_balloon *balloon)
     return balloon->spring_by_height.on;
 }
 
-/* The factor at the height of each edge's middle: 0 for the lowest point of the balloon at rest, 1 for the highest. */
+/* The factor at the height of each edge's middle: 0 for the lowest point of the balloon at
+ * rest, 1 for the highest. */
 static void apply(struct sim *sim, struct sim_balloon *balloon)
 {
     double low = INFINITY, high = -INFINITY;

@@ -1,7 +1,8 @@
 /*
- * A string that is tied to a patch of the skin, as to a balloon's neck: while it is longer than its length L it pulls with
- * k (|l| - L) + d v . l/|l|, but never pushes, at the mean of the patch's points, alike on each. Its other end is held, or carries a
- * weight, which is no point of the skin: its place and speed are scalars, integrated along.
+ * A string that is tied to a patch of the skin, as to a balloon's neck: while it is longer than its length L
+ * it pulls with k (|l| - L) + d v . l/|l|, but never pushes, at the mean of the patch's points, alike on
+ * each. Its other end is held, or carries a weight, which is no point of the skin: its place and speed are
+ * scalars, integrated along.
  */
 #include "common/vec3.h"
 #include "sim/effects.h"
@@ -111,7 +112,8 @@ static void apply(struct sim *sim, struct sim_balloon *b)
     }
 }
 
-/* F = -T u: dF = -(dT u + T du), du = (dl - u (u . dl))/|l|, dT = k u . dl + d (u . dv + v . du). The weight is taken to stay where it is. */
+/* F = -T u: dF = -(dT u + T du), du = (dl - u (u . dl))/|l|, dT = k u . dl + d (u . dv + v . du). The weight
+ * is taken to stay where it is. */
 static void product(struct sim *sim, struct sim_balloon *b, double a, double (*dx)[4], double f,
                     double (*dv)[4], double (*df)[4])
 {
@@ -133,7 +135,8 @@ static void product(struct sim *sim, struct sim_balloon *b, double a, double (*d
             df[string->point[k]][i] -= (dt * pull.along[i] + a * pull.tension * du[i]) / string->count;
 }
 
-/* A point feels its share, and what is stretched already pulls; and a weight that swings faster than the point would is made up for by more of it. */
+/* A point feels its share, and what is stretched already pulls; and a weight that swings faster than the
+ * point would is made up for by more of it. */
 static void bound(const struct sim *sim, const struct sim_balloon *b, const struct guard_rows *rows)
 {
     const struct string *string = b->string;

@@ -1,11 +1,12 @@
 /*
- * A tube between the gas of two balloons: what flows is what an opening of its area lets through from the higher pressure to the lower
- * (gas_law.h); what leaves one arrives at the other, to the bit.
+ * A tube between the gas of two balloons: what flows is what an opening of its area lets through from the
+ * higher pressure to the lower (gas_law.h); what leaves one arrives at the other, to the bit.
  *
- * Near even pressures that law would ask for ever shorter steps: the flow goes by the root of the difference d. There a flow is slow and laminar,
- * and goes by d itself (Poiseuille); here from a hundredth of the larger gauge pressure downwards, or 1e-4 of the pressure. So the pressures
- * approach each other at a finite rate, dN/dd (1/C1 + 1/C2) with C = dN/dp of each balloon, and the guard splits steps that cannot follow
- * it. Where it may not, flow is held back so that it never turns round within a step, and that is told.
+ * Near even pressures that law would ask for ever shorter steps: the flow goes by the root of the difference
+ * d. There a flow is slow and laminar, and goes by d itself (Poiseuille); here from a hundredth of the larger
+ * gauge pressure downwards, or 1e-4 of the pressure. So the pressures approach each other at a finite rate,
+ * dN/dd (1/C1 + 1/C2) with C = dN/dp of each balloon, and the guard splits steps that cannot follow it. Where
+ * it may not, flow is held back so that it never turns round within a step, and that is told.
  */
 #include "sim/effects.h"
 #include "sim/gas.h"
@@ -42,7 +43,8 @@ static double flow(const struct pair *pair, double difference)
     return jet.flux * tube->area * pair->from->amount_of_mass * (difference / turbulent);
 }
 
-/* Both change: half of what would even one of them out alone, of the smaller. Methods that choose their own steps see to that by themselves. */
+/* Both change: half of what would even one of them out alone, of the smaller. Methods that choose their own
+ * steps see to that by themselves. */
 static double most_in_a_step(const struct sim *sim, const struct pair *pair, double difference)
 {
     const double capacity = fmin(pair->from->capacity, pair->into->capacity);

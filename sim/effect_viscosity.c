@@ -1,9 +1,10 @@
 /*
- * Viscoelastic springs: beside each spring k_s with its damper (the unit of Kelvin and Voigt) an arm of a spring and a dashpot in series (that of
- * Maxwell), of the units of the paper's figure 1. The arm pulls with f = c k_s (|l| - r - s), c the scene's ratio, where the dashpot has
- * given way by s and goes on doing so as ds/dt = (|l| - r - s)/T. Held at a length, the pull falls from (1 + c) to 1 times the
- * spring's as exp(-t/T); under a steady force it creeps. s is integrated along with the positions (sim->scalar).
- * Pulls and rates are worked out where the springs' lengths are (forces_edges.h).
+ * Viscoelastic springs: beside each spring k_s with its damper (the unit of Kelvin and Voigt) an arm of a
+ * spring and a dashpot in series (that of Maxwell), of the units of the paper's figure 1. The arm pulls with
+ * f = c k_s (|l| - r - s), c the scene's ratio, where the dashpot has given way by s and goes on doing so as
+ * ds/dt = (|l| - r - s)/T. Held at a length, the pull falls from (1 + c) to 1 times the spring's as
+ * exp(-t/T); under a steady force it creeps. s is integrated along with the positions (sim->scalar). Pulls
+ * and rates are worked out where the springs' lengths are (forces_edges.h).
  */
 #include "common/vec3.h"
 #include "sim/effects.h"

@@ -123,8 +123,8 @@ static void finish(struct sim *sim, struct unfinished left)
         sim_each_part(sim, finish_part, &left);
 }
 
-/* Runs the hooks of a phase; whatever they leave to finish is done before the next one that applies anything. Returns the first that is
- * left. */
+/* Runs the hooks of a phase; whatever they leave to finish is done before the next one that applies anything.
+ * Returns the first that is left. */
 static size_t apply(struct sim *sim, enum effect_phase phase)
 {
     size_t first = 0;

@@ -121,7 +121,8 @@ enum status estimate_compare(struct estimate *e, const struct sim *sim, double *
     return STATUS_OK;
 }
 
-/* An error that falls by the ratio when the work grows from the run's to the companion's falls with that power of the work. */
+/* An error that falls by the ratio when the work grows from the run's to the companion's falls with
+ * that power of the work. */
 void estimate_print(const struct estimate *e, FILE *stream)
 {
     const double work = fmax(e->work[1] / e->work[0], 1); /* finer and yet quicker: solvers may be lucky */

@@ -4,13 +4,15 @@
 #include <math.h>
 #include <string.h>
 
-/* Work on one point, edge or triangle: rows (or as many bytes) read and written, operations on four numbers at once, and roots and
- * divisions; with what a step saves by going through memory once (sweep.h), and what a rare pass comes to for each step. */
+/* Work on one point, edge or triangle: rows (or as many bytes) read and written, operations on four numbers
+ * at once, and roots and divisions; with what a step saves by going through memory once (sweep.h), and what a
+ * rare pass comes to for each step. */
 struct work {
     double rows, operations, roots;
 };
 
-/* What they take, a row being 1. tests/bench/bench_effects prints what comes of it beside what it measures. */
+/* What they take, a row being 1. tests/bench/bench_effects prints what comes of it
+ * beside what it measures. */
 static double price(const struct work *work, double count)
 {
     return count * (work->rows + 0.5 * work->operations + 2 * work->roots);
@@ -22,7 +24,8 @@ static const double points = 0.5, edges = 1.5;
 /* The paper's step with symplectic Euler (forces.c). */
 static const struct work step_point = {10, 4, 2}, step_edge = {9, 12, 2}, step_triangle = {9, 8, 2};
 
-/* What an effect adds for a point, an edge and a triangle; nothing worth counting: it acts once, or on single points. */
+/* What an effect adds for a point, an edge and a triangle; nothing worth counting: it acts
+ * once, or on single points. */
 static const struct cost {
     const char *name, *needs;
     struct work point, edge, triangle;

@@ -1,5 +1,6 @@
-/* Whether a balloon can burst by itself, as an estimate: it swells as a whole and nothing is lost on the way, so that its pressure brings it to the stretch at which it
- * bursts if nowhere before that the skin holds more than the pressure has given. */
+/* Whether a balloon can burst by itself, as an estimate: it swells as a whole and nothing is lost on the way,
+ * so that its pressure brings it to the stretch at which it bursts if nowhere before that the skin holds more
+ * than the pressure has given. */
 #include "common/scene_fields.h"
 #include "sim/explain.h"
 #include "sim/fracture.h"
@@ -17,7 +18,8 @@ static double energy_at(struct sim *sim, const struct sim_balloon *b, double str
     return b->membrane ? membrane_elastic(sim, b) : ledger_elastic(sim, b->edge_begin, b->edge_end);
 }
 
-/* Whole skin tears, or one edge in a hundred lets go: single ones may be longer than all others, and do not open the skin. */
+/* Whole skin tears, or one edge in a hundred lets go: single ones may be longer than all others,
+ * and do not open the skin. */
 static bool bursts_at(const struct sim *sim, const struct sim_balloon *b, double stretch)
 {
     if (b->fracture)
@@ -36,7 +38,8 @@ static double work_at(const struct sim_balloon *b, double stretch, double volume
                       : (double)(b->point_end - b->point_begin) * b->radius * (stretch - 1);
 }
 
-/* The filling whose work, pa V0 (N ln L^3 - L^3 + 1) at constant temperature, is the skin's energy; of a pump, which is slow, that in balance: (1 + p/pa) L^3. */
+/* The filling whose work, pa V0 (N ln L^3 - L^3 + 1) at constant temperature, is the skin's energy; of a
+ * pump, which is slow, that in balance: (1 + p/pa) L^3. */
 static double filling_at(const struct sim_balloon *b, double stretch, double volume, double energy,
                          double pressure)
 {

@@ -24,7 +24,8 @@ struct film {
     struct image_text texts[2]; /* of every PNG */
 };
 
-/* Every frame tells where it is from: the scene's file, and all keys that its state depends on, seeds among them. */
+/* Every frame tells where it is from: the scene's file, and all keys that its state
+ * depends on, seeds among them. */
 static enum status make_texts(struct film *film, const struct scene *scene, struct error *err)
 {
     size_t size = 0;

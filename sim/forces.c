@@ -1,9 +1,10 @@
 /*
- * Parts 1 to 4 of a step (paper 3.5): springs and dampers, normals, pressure. Compiled once for each set of instructions
- * (kernels.h): SIM_KERNELS is the name of the table at the end.
+ * Parts 1 to 4 of a step (paper 3.5): springs and dampers, normals, pressure. Compiled once for each set of
+ * instructions (kernels.h): SIM_KERNELS is the name of the table at the end.
  *
- * A row is x, y, z and 0: GCC's vectors, so that arithmetic reads as on paper and runs four wide. What is not a vector's, such as a
- * length and its inverse, is worked out for four edges, triangles or points at once (lanes.h).
+ * A row is x, y, z and 0: GCC's vectors, so that arithmetic reads as on paper and runs four wide. What
+ * is not a vector's, such as a length and its inverse, is worked out for four edges, triangles or
+ * points at once (lanes.h).
  */
 #include "sim/forces_edges.h"
 #include "sim/forces_triangles.h"
@@ -11,8 +12,8 @@
 
 #include <string.h>
 
-/* Part 1: "initialize acceleration and normal vectors to (0,0,0)". By memset, since that does not read the lines of the cache which
- * it writes: a tenth of the time of a large balloon's step. */
+/* Part 1: "initialize acceleration and normal vectors to (0,0,0)". By memset, since that does not read the
+ * lines of the cache which it writes: a tenth of the time of a large balloon's step. */
 static void clear_points(struct sim *sim, const struct sim_chunk *chunk)
 {
     row *force = sim->rows.force, *normal = sim->rows.normal;
@@ -69,8 +70,8 @@ static void triangle_normals(struct sim *sim, const struct sim_part *part, const
     add_triangles(sim, part, chunk, true);
 }
 
-/* Part 4: normalize the normals; pressure is a force along them. A point that lost its last triangle has no normal, and
- * nothing for the air to press on. */
+/* Part 4: normalize the normals; pressure is a force along them. A point that lost its last triangle has no
+ * normal, and nothing for the air to press on. */
 static void pressure_forces(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk)
 {
     row *force = sim->rows.force, *normal = sim->rows.normal;

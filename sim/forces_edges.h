@@ -1,6 +1,7 @@
 /*
- * Part 2 of a step (paper 3.5; forces.c): springs and dampers, and beside them what the scene's blocks `viscosity` and `plasticity` ask of each
- * edge whose length is at hand anyway (effect_viscosity.c, effect_plasticity.c).
+ * Part 2 of a step (paper 3.5; forces.c): springs and dampers, and beside them what the scene's
+ * blocks `viscosity` and `plasticity` ask of each edge whose length is at hand anyway
+ * (effect_viscosity.c, effect_plasticity.c).
  */
 #ifndef SIM_FORCES_EDGES_H
 #define SIM_FORCES_EDGES_H
@@ -15,8 +16,8 @@ enum edge_work {
     EDGE_WATCH = 4,   /* looks how hard the springs pull */
 };
 
-/* The tables that a loop reads, as local variables: for all that the compiler knows, a row that is written might be one of
- * the addresses in struct sim, which it would then read again for each edge. */
+/* The tables that a loop reads, as local variables: for all that the compiler knows, a row that is written
+ * might be one of the addresses in struct sim, which it would then read again for each edge. */
 struct edges {
     const row *position, *velocity;
     const uint32_t (*point)[2];
@@ -25,7 +26,8 @@ struct edges {
     double damping;
     double most,
         most_of_rest; /* an edge of rest length r is surely not overlong up to most + most_of_rest r */
-    /* Of arms: how far each has given way, from the balloon's first edge on, and at what rate; the stiffness over the spring's; 1/T. */
+    /* Of arms: how far each has given way, from the balloon's first edge on, and at what rate; the stiffness
+     * over the spring's; 1/T. */
     const double *given;
     double *given_rate;
     size_t first;
@@ -64,8 +66,8 @@ struct edge_found {
 
 /* Part 2: springs and dampers. With l = a - b and its length |l|,
  *     f_a = -[k_s (|l| - r) + k_d (v . l)/|l|] l/|l|,   f_b = -f_a      Witkin, SIGGRAPH '95 course notes 34
- * The paper prints |v| under the damper's l: a misprint, since that would be 0/0 in a balloon at rest. An edge of no
- * length has no direction and pulls at nothing. Returns f_b. */
+ * The paper prints |v| under the damper's l: a misprint, since that would be 0/0 in a balloon at rest. An
+ * edge of no length has no direction and pulls at nothing. Returns f_b. */
 INLINE row edge_force(const struct edges *edges, uint32_t e, enum edge_work work, struct edge_found *found)
 {
     const uint32_t a = edges->point[e][0], b = edges->point[e][1];
@@ -187,7 +189,8 @@ INLINE void add_edges(struct sim *sim, const struct sim_part *part, const struct
     }
 }
 
-/* Those of four edges that follow each other whose springs pull or push with `yield` and more, to round-off; `hardening` for what has slipped. */
+/* Those of four edges that follow each other whose springs pull or push with `yield` and more, to round-off;
+ * `hardening` for what has slipped. */
 static inline lane_mask slipping(const struct edges *edges, uint32_t e, double yield, double hardening,
                                  const double *slipped)
 {

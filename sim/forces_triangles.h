@@ -1,12 +1,13 @@
-/* Part 3 of a step (paper 3.5; forces.c): the normals of triangles, and with them the air's resistance (effect_drag.c). */
+/* Part 3 of a step (paper 3.5; forces.c): the normals of triangles, and with them the air's
+ * resistance (effect_drag.c). */
 #ifndef SIM_FORCES_TRIANGLES_H
 #define SIM_FORCES_TRIANGLES_H
 
 #include "sim/forces_math.h"
 #include "sim/sim.h"
 
-/* Part 3: the unit normal of a triangle, which each active one adds to its three points'. A triangle without area has none
- * to add. Where pressure acts on areas (areas.h): twice its area along that normal. */
+/* Part 3: the unit normal of a triangle, which each active one adds to its three points'. A triangle without
+ * area has none to add. Where pressure acts on areas (areas.h): twice its area along that normal. */
 static inline row triangle_normal(const row *position, const uint32_t *p, bool unit)
 {
     const row twice_area = cross(position[p[1]] - position[p[0]], position[p[2]] - position[p[0]]);
@@ -32,8 +33,8 @@ static inline struct facets facets_of(const row *position, const uint32_t (*poin
     return f;
 }
 
-/* The air's resistance (effect_drag.c), with what the normal has brought: (r C/12) (w . n) |w . n| N, n = N/|N|, w the wind less the mean
- * speed. */
+/* The air's resistance (effect_drag.c), with what the normal has brought: (r C/12) (w . n) |w . n| N, n =
+ * N/|N|, w the wind less the mean speed. */
 struct air {
     const row *velocity;
     row wind;      /* three times it */

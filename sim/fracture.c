@@ -13,8 +13,8 @@ double fracture_equal_energy(double stretch)
     return (2 * squared + 1 / (squared * squared) - 3) / 2;
 }
 
-/* Principal stretches from F = [d1 d2] [(a, 0), (b, c)]^-1, whose columns are f1 and f2; then neo-Hookean, with tension-field
- * wrinkles (membrane.h). */
+/* Principal stretches from F = [d1 d2] [(a, 0), (b, c)]^-1, whose columns are f1 and f2; then neo-Hookean,
+ * with tension-field wrinkles (membrane.h). */
 static void look_at_springs(const struct sim *sim, const struct sim_balloon *b, uint32_t triangle,
                             struct membrane_state *s)
 {
@@ -126,7 +126,8 @@ static uint32_t weakest(const struct sim *sim, const struct sim_balloon *b)
 static void tension_at(const struct sim *sim, const struct sim_balloon *b, uint32_t point,
                        double direction[3])
 {
-    /* the direction is taken back to rest by the triangle's corners, which keep their barycentric coordinates */
+    /* the direction is taken back to rest by the triangle's corners, which keep their
+     * barycentric coordinates */
     struct fan fan;
     struct membrane_state s, best = {.energy = -1};
     topology_first(sim, b, point, &fan);
@@ -251,7 +252,8 @@ static void births(struct sim *sim, struct sim_balloon *b)
     open_at(sim, b, point, 0.05 * f->radius);
 }
 
-/* Near a cut that is so young that the waves it made are not yet gone: there is more tension there than will stay. */
+/* Near a cut that is so young that the waves it made are not yet gone: there is more
+ * tension there than will stay. */
 static bool is_near_cut(const struct sim *sim, const struct sim_balloon *b, const double place[3])
 {
     const struct fracture *f = b->fracture;
@@ -263,8 +265,8 @@ static bool is_near_cut(const struct sim *sim, const struct sim_balloon *b, cons
     return false;
 }
 
-/* Strands between pieces hold twice what whole skin does, and then snap: the most stretched first. Within a look one does, so that the others
- * learn of it. */
+/* Strands between pieces hold twice what whole skin does, and then snap: the most stretched first. Within a
+ * look one does, so that the others learn of it. */
 static void snap_strands(struct sim *sim, struct sim_balloon *b)
 {
     enum { TRIES = 16 };
@@ -302,7 +304,7 @@ void fracture_step(struct sim *sim, struct sim_balloon *b)
     fracture_tell_gas(sim, b);
     if (cuts == 0)
         sim_tell(sim, b, "fracture", "the skin tears");
-    if ((now ^ cuts) >
-        cuts) /* the number has a digit more: the bound on the step is looked at again, a dozen times in all */
+    /* The number has a digit more: the bound on the step is looked at again, a dozen times in all. */
+    if ((now ^ cuts) > cuts)
         guard_outdated(sim);
 }

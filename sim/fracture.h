@@ -1,20 +1,23 @@
 /*
  * Where and when a skin tears (the scene's block `fracture` in mode "tear"); topology.h is how.
  *
- * All is asked between two steps, with the stresses as they are. Lengths are at rest, in mean radii R; W is the energy that a volume
- * at rest holds over the shear modulus, and T = R/c, c the speed of shear waves at rest.
+ * All is asked between two steps, with the stresses as they are. Lengths are at rest, in mean radii
+ * R; W is the energy that a volume at rest holds over the shear modulus, and T = R/c, c the speed
+ * of shear waves at rest.
  *
- * Births. Whole skin tears where the mean of W over a patch of radius 0.15 R passes what an equal stretch of `strength` both ways would hold,
- * times 1 + weakness x noise(place, seed). The mean makes it a property of the skin and not of its mesh. Once it has burst somewhere,
- * it takes 1.5 times as much to burst elsewhere, and not near an earlier place. Birth is a slit across the largest tension.
- * Tips. A crack runs on when its tip's triangles would release its toughness: W_tip r >= toughness R, r = sqrt(their area/pi) (Griffith 1921: an
- * energy per area of crack, so that the mesh's size drops out). It takes the edge with the largest tension across, forwards only, and then
- * rests for as long as a tip of `tip_speed` c takes to go there.
- * Forks. Where the skin ahead holds more than `branching` would, a tip goes two ways, and not again before it has run `spacing` R sqrt(W_branching/W).
- * Strands. What holds pieces together snaps at twice the W of whole skin, the most stretched first, one in a look; not near cuts that are as
- * young as waves need to go there, since what a tip has left behind has yet to relax.
- * Rims. A tip that comes to a rim runs through it, however narrow what is left: were ligaments kept, their width would be the mesh's.
- * Strongest first, and nothing twice in a neighbourhood that has changed in this step.
+ * Births. Whole skin tears where the mean of W over a patch of radius 0.15 R passes what an equal stretch of
+ * `strength` both ways would hold, times 1 + weakness x noise(place, seed). The mean makes it a property of
+ * the skin and not of its mesh. Once it has burst somewhere, it takes 1.5 times as much to burst elsewhere,
+ * and not near an earlier place. Birth is a slit across the largest tension. Tips. A crack runs on when its
+ * tip's triangles would release its toughness: W_tip r >= toughness R, r = sqrt(their area/pi) (Griffith
+ * 1921: an energy per area of crack, so that the mesh's size drops out). It takes the edge with the largest
+ * tension across, forwards only, and then rests for as long as a tip of `tip_speed` c takes to go there.
+ * Forks. Where the skin ahead holds more than `branching` would, a tip goes two ways, and not again before it
+ * has run `spacing` R sqrt(W_branching/W). Strands. What holds pieces together snaps at twice the W of whole
+ * skin, the most stretched first, one in a look; not near cuts that are as young as waves need to go there,
+ * since what a tip has left behind has yet to relax. Rims. A tip that comes to a rim runs through it, however
+ * narrow what is left: were ligaments kept, their width would be the mesh's. Strongest first, and nothing
+ * twice in a neighbourhood that has changed in this step.
  */
 #ifndef SIM_FRACTURE_H
 #define SIM_FRACTURE_H
@@ -65,16 +68,18 @@ struct fracture {
     } now;
 };
 
-/* The strain of a triangle: the membrane's own, or else as if the springs were a neo-Hookean membrane, which depends on the stretches alone. */
+/* The strain of a triangle: the membrane's own, or else as if the springs were a neo-Hookean membrane, which
+ * depends on the stretches alone. */
 void fracture_look(const struct sim *sim, const struct sim_balloon *balloon, uint32_t triangle,
                    struct membrane_state *state);
 
-/* Cuts a slit at a point, half_length (at rest) to both sides of it along `direction`, a vector of the skin as it was at rest; on a rim only
- * inwards. Its ends become tips of cracks. Returns the cuts. */
+/* Cuts a slit at a point, half_length (at rest) to both sides of it along `direction`, a vector of the skin
+ * as it was at rest; on a rim only inwards. Its ends become tips of cracks. Returns the cuts. */
 uint32_t fracture_slit(struct sim *sim, struct sim_balloon *balloon, uint32_t point,
                        const double direction[3], double half_length);
 
-/* What a needle's touch or a click does: a slit of 0.15 R at the balloon's point nearest to a place as the skin is now, across the largest tension there. */
+/* What a needle's touch or a click does: a slit of 0.15 R at the balloon's point nearest to a place as the
+ * skin is now, across the largest tension there. */
 void fracture_prick(struct sim *sim, struct sim_balloon *balloon, const double place[3]);
 
 /* The scene's rip as a slit. */

@@ -29,7 +29,8 @@ struct gas {
     uint32_t neck_count;
     unsigned char *held; /* [points] of the balloon: 0 where a piece has fallen off; owned */
 
-    /* By the last sim_forces(); the thrust beyond the missing pressure on a unit of a hole's area, and that of the neck. */
+    /* By the last sim_forces(); the thrust beyond the missing pressure on a unit of a hole's
+     * area, and that of the neck. */
     double volume, pressure, rim_thrust, neck_thrust;
 
     bool tube_held,
@@ -79,11 +80,12 @@ void gas_find_holes(const struct sim *sim, const struct sim_balloon *balloon);
 /* The volume of the fans that close them, seen from `origin`. */
 double gas_fan_volume(const struct gas_holes *holes, const double origin[3]);
 
-/* The same's change as the points move by dx; exact also for what the moving rim does to the skin's volume. */
+/* The same's change as the points move by dx; exact also for what the moving rim
+ * does to the skin's volume. */
 double gas_fan_change(const struct sim *sim, const struct sim_balloon *balloon, double (*dx)[4]);
 
-/* What gets out through holes and neck a second: sets the rates of the scalars for it, and adds the jets' thrust to the forces beyond the
- * pressure that is missing where the holes are. */
+/* What gets out through holes and neck a second: sets the rates of the scalars for it, and adds the jets'
+ * thrust to the forces beyond the pressure that is missing where the holes are. */
 void gas_let_out(struct sim *sim, struct sim_balloon *balloon);
 
 /* What that thrust does to the skin's energy a second, by the last sim_forces(). */

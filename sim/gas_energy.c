@@ -1,4 +1,5 @@
-/* What gas is worth (effect_gas.c): volume and pressure from positions alone, how they change with them, and the energy that is in them. */
+/* What gas is worth (effect_gas.c): volume and pressure from positions alone, how they change with them, and
+ * the energy that is in them. */
 #include "common/vec3.h"
 #include "sim/gas.h"
 #include "sim/guard.h"
@@ -6,7 +7,8 @@
 
 #include <string.h>
 
-/* What volumes are seen from: the balloon's first point, so that nothing is lost of them however far it has flown. */
+/* What volumes are seen from: the balloon's first point, so that nothing is lost of them
+ * however far it has flown. */
 void gas_origin(const struct sim *sim, const struct sim_balloon *b, double origin[4])
 {
     memcpy(origin, sim->position[b->point_begin], 4 * sizeof *origin);
@@ -27,8 +29,9 @@ double gas_volume(const struct sim *sim, const struct sim_balloon *b)
            gas_fan_volume(&b->gas->holes, origin);
 }
 
-/* At the point x: p - pa + (r - ra) g . x - r g . x0 + ra g . c, with the densities r and ra of gas and air, g gravity, x0 the first point,
- * where the gas's pressure is p, and c the centre at rest, where the air's is pa. */
+/* At the point x: p - pa + (r - ra) g . x - r g . x0 + ra g . c, with the densities r and ra of gas
+ * and air, g gravity, x0 the first point, where the gas's pressure is p, and c the centre at rest,
+ * where the air's is pa. */
 struct areas_pressure gas_pressures(const struct sim *sim, const struct sim_balloon *b, double pressure,
                                     double volume)
 {
@@ -42,8 +45,8 @@ struct areas_pressure gas_pressures(const struct sim *sim, const struct sim_ball
     return q;
 }
 
-/* F_i = q N_i/6, where q follows the volume: dp/dV = -g p/V, and the gas's density dr/dV = -r/V. Thrust is taken as constant: Newton's method
- * does without. */
+/* F_i = q N_i/6, where q follows the volume: dp/dV = -g p/V, and the gas's density dr/dV = -r/V. Thrust is
+ * taken as constant: Newton's method does without. */
 void gas_product(struct sim *sim, struct sim_balloon *b, double a, double (*dx)[4], double f, double (*dv)[4],
                  double (*df)[4])
 {
@@ -71,14 +74,15 @@ void gas_product(struct sim *sim, struct sim_balloon *b, double a, double (*dx)[
     areas_product(sim, b, &pressure, &d, gas_held(gas), a, dx, df);
 }
 
-/* The gauge pressure that the bound counts with: a thousandth of the pressure at the least, so that a balloon that is filled from
- * nothing does not ask for a new one at every step. */
+/* The gauge pressure that the bound counts with: a thousandth of the pressure at the least, so that a balloon
+ * that is filled from nothing does not ask for a new one at every step. */
 double gas_gauge_to_bound(const struct gas *gas, double pressure)
 {
     return fmax(fabs(pressure - gas->scene->ambient), 1e-3 * pressure);
 }
 
-/* The largest pressure on any point, less the air's: where gas or air have weight it depends on the height. */
+/* The largest pressure on any point, less the air's: where gas or air have weight it
+ * depends on the height. */
 static double largest_gauge(const struct sim *sim, const struct sim_balloon *b,
                             const struct areas_pressure *pressure)
 {
@@ -88,8 +92,8 @@ static double largest_gauge(const struct sim *sim, const struct sim_balloon *b,
     return most;
 }
 
-/* The stiffness of areas, and g p/V times a point's area vector times those of all others; both for half as much again. From the state
- * alone: what the last forces left may be that of another one. */
+/* The stiffness of areas, and g p/V times a point's area vector times those of all others; both for half as
+ * much again. From the state alone: what the last forces left may be that of another one. */
 void gas_bound(const struct sim *sim, const struct sim_balloon *b, const struct guard_rows *rows)
 {
     struct gas *gas = b->gas;
@@ -113,7 +117,8 @@ void gas_bound(const struct sim *sim, const struct sim_balloon *b, const struct 
             rows->stiffness[sim->triangle_point[t][k]] += stiffness * areas_size(sim, t) / 3;
 }
 
-/* Whoever asks leaves the holes as the last forces found them: what goes by them must not depend on the ledger. */
+/* Whoever asks leaves the holes as the last forces found them: what goes by them must
+ * not depend on the ledger. */
 double gas_held_energy(struct sim *sim, struct sim_balloon *b)
 {
     struct gas *gas = b->gas;
@@ -147,8 +152,8 @@ static double pushing_power(const struct sim *sim, uint32_t begin, uint32_t end,
     return power;
 }
 
-/* What pumps bring and what the air lifts is work; what streams out is lost, but for its thrust's work, and so is what a
- * hole's edge does not catch of the pressure. */
+/* What pumps bring and what the air lifts is work; what streams out is lost, but for its thrust's work, and
+ * so is what a hole's edge does not catch of the pressure. */
 void gas_power(struct sim *sim, struct sim_balloon *b, double *dissipated, double *work)
 {
     const struct gas *gas = b->gas;

@@ -52,7 +52,8 @@ double gas_fan_volume(const struct gas_holes *holes, const double origin[3])
     return volume;
 }
 
-/* Of the fan's triangle (middle, b, a) as of any other of the closed surface: its twice area times the sum of the ways of its corners, over 6. */
+/* Of the fan's triangle (middle, b, a) as of any other of the closed surface: its twice area times the sum of
+ * the ways of its corners, over 6. */
 double gas_fan_change(const struct sim *sim, const struct sim_balloon *balloon, double (*dx)[4])
 {
     const struct gas_holes *holes = &balloon->gas->holes;
@@ -85,8 +86,8 @@ double gas_openings(const struct gas *gas)
     return area;
 }
 
-/* to += factor x the thrust of the last jets on each point: at rims what is beyond the pressure that is missing there, alike on all of
- * the rim; at the neck against the way in which it looks. */
+/* to += factor x the thrust of the last jets on each point: at rims what is beyond the pressure that is
+ * missing there, alike on all of the rim; at the neck against the way in which it looks. */
 static void add_thrust(const struct sim *sim, const struct sim_balloon *balloon, void *context,
                        void (*add)(void *context, uint32_t point, const double force[3]))
 {

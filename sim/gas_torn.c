@@ -140,7 +140,8 @@ void gas_torn_follow(const struct sim *sim, const struct sim_balloon *b)
     number_holes(b);
 }
 
-/* How many triangles hang together with each point that stands for a piece. Returns the largest one's; the first of equals. */
+/* How many triangles hang together with each point that stands for a piece. Returns the largest
+ * one's; the first of equals. */
 static uint32_t count_pieces(const struct sim *sim, const struct sim_balloon *b)
 {
     struct gas_torn *torn = b->gas->torn;

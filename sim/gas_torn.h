@@ -1,7 +1,7 @@
 /*
- * Where the paper's skin is open (3.5, part 3: triangles vanish), for the gas inside: the sides of active triangles that no other
- * active triangle shares are rims; those that hang together by points are one hole. Triangles that hang together by points are one
- * piece, and the gas stays in the one with the most triangles.
+ * Where the paper's skin is open (3.5, part 3: triangles vanish), for the gas inside: the sides of active
+ * triangles that no other active triangle shares are rims; those that hang together by points are one hole.
+ * Triangles that hang together by points are one piece, and the gas stays in the one with the most triangles.
  *
  * Skins that tear along cracks know their rims themselves (fracture.h).
  */
@@ -13,8 +13,8 @@
 struct gas_torn {
     struct gas_rims rims;
     uint64_t of; /* fingerprint of what they were found for; 0: of nothing yet */
-    uint32_t *
-        group; /* [points of the balloon] points that hang together: one of them, in the end the same for all; owned */
+    /* [points of the balloon] points that hang together: one of them, in the end the same for all; owned. */
+    uint32_t *group;
     uint32_t *number;     /* [points of the balloon] of the hole, or how many triangles a piece has; owned */
     unsigned char *sides; /* [edges of the balloon] how many active triangles an edge has; owned */
 };

@@ -50,7 +50,8 @@ size_t guard_blocks(struct sim *sim, struct sim_block *blocks)
     return 2;
 }
 
-/* The kinetic energy of a block of points, or no number when one of their places or speeds is none: 0 times that is NaN, and
+/* The kinetic energy of a block of points, or no number when one of their places or speeds is none: 0
+ * times that is NaN, and
  * 0 for any other. */
 static double moving_energy(const struct sim *sim, uint32_t begin, uint32_t end, void *context)
 {
@@ -62,8 +63,8 @@ static double moving_energy(const struct sim *sim, uint32_t begin, uint32_t end,
     return (energy[0] + energy[1] + energy[2]) / 2;
 }
 
-/* What the points can have from now on: at least what they have. `least` is 1e-12 of what it takes to stretch every edge by its
- * own length, in energy: six digits above what rounding makes of a balloon at rest. */
+/* What the points can have from now on: at least what they have. `least` is 1e-12 of what it takes to stretch
+ * every edge by its own length, in energy: six digits above what rounding makes of a balloon at rest. */
 static void find_reach(struct sim *sim)
 {
     struct guard_memory *memory = &sim->guard->memory;
@@ -130,7 +131,8 @@ static double parts_needed(const struct sim *sim)
     return fmax(ceil(sim->whole_step / sim->guard->memory.stable * (1 - 1e-12)), 1);
 }
 
-/* Within a step that is split already: what was stable at its start no longer is, since speeds or stretches have grown. */
+/* Within a step that is split already: what was stable at its start no longer is, since speeds
+ * or stretches have grown. */
 static void split_further(struct sim *sim)
 {
     const double more = ceil(sim->step / sim->guard->memory.stable * (1 - 1e-12));

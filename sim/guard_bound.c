@@ -95,8 +95,8 @@ static double bound_of(const struct sim *sim, const struct limits *l, uint32_t *
     return best;
 }
 
-/* A power iteration at the step h: x becomes the matrix times x, its largest number 1. None may become 0: where little happens,
- * far from the tightest point, numbers shrink as long as one iterates. */
+/* A power iteration at the step h: x becomes the matrix times x, its largest number 1. None may become 0:
+ * where little happens, far from the tightest point, numbers shrink as long as one iterates. */
 static void sharpen(const struct sim *sim, const struct limits *l, double h)
 {
     struct guard *guard = sim->guard;

@@ -8,8 +8,9 @@
 
 enum { NEWTON_ITERATIONS_MAX = 12, HALVINGS_MAX = 10 };
 
-/* The residual that a linear solve leaves, and what of the first correction may be left when Newton's method stops. With 1e-3 or
- * 1e-5 for the former, a step took a tenth less or more time, on balloons of 2562 points. */
+/* The residual that a linear solve leaves, and what of the first correction may be left when
+ * Newton's method stops. With 1e-3 or 1e-5 for the former, a step took a tenth less or more time, on
+ * balloons of 2562 points. */
 static const double linear_tolerance = 1e-4, newton_tolerance = 1e-6;
 
 enum status implicit_open(struct sim *sim, struct error *err)
@@ -75,7 +76,8 @@ static void place_points(struct sim *sim, double c)
                    (struct vector_term[]){{c, sim->velocity}}, 1);
 }
 
-/* Forces at the present guess, and scalars by their rates there; returns the largest change of one against its size. */
+/* Forces at the present guess, and scalars by their rates there; returns the largest change
+ * of one against its size. */
 static double evaluate(struct sim *sim, double c)
 {
     const double *base = sim->scalar_scratch[IMPLICIT_BASE_VELOCITY];
@@ -218,8 +220,8 @@ static void turning_part(struct sim *sim, const struct sim_part *part, void *con
     ((bool *)context)[part - sim->parts] = turned;
 }
 
-/* Whether an edge points backwards after a step: equations of long steps have more solutions than the one that is the end of a
- * way, with triangles inside out and springs through themselves. */
+/* Whether an edge points backwards after a step: equations of long steps have more solutions than the one
+ * that is the end of a way, with triangles inside out and springs through themselves. */
 static bool has_turned(struct sim *sim)
 {
     struct implicit *m = sim->method;

@@ -3,11 +3,13 @@
  *
  *     v = V + c a(X + c v, v, S + c r)
  *
- * where a is the acceleration and r the rate of the scalars, at positions X + c v and scalars S + c r. Newton's method with
- * exact derivatives; each of its linear systems is solved to a fixed part of its right-hand side (Dembo, Eisenstat and
- * Steihaug, SIAM J. Numer. Anal. 19 (1982) 400), and the scalars follow, without derivatives of theirs. It has converged when
- * what is left is a millionth of the first correction, which is what the step changed: far below the error of the step.
- * A step whose equation it does not solve, or that turns an edge back to front, is taken in halves, and halves of halves; none is accepted that was not solved.
+ * where a is the acceleration and r the rate of the scalars, at positions X + c v and scalars S + c r.
+ * Newton's method with exact derivatives; each of its linear systems is solved to a fixed part of its
+ * right-hand side (Dembo, Eisenstat and Steihaug, SIAM J. Numer. Anal. 19 (1982) 400), and the scalars
+ * follow, without derivatives of theirs. It has converged when what is left is a millionth of the first
+ * correction, which is what the step changed: far below the error of the step. A step whose equation it
+ * does not solve, or that turns an edge back to front, is taken in halves, and halves of halves; none is
+ * accepted that was not solved.
  */
 #ifndef SIM_IMPLICIT_H
 #define SIM_IMPLICIT_H
@@ -36,18 +38,21 @@ struct implicit {
 enum status implicit_open(struct sim *sim, struct error *err);
 void implicit_close(struct sim *sim);
 
-/* Solves the equation from a first guess in sim->velocity, and leaves the solution in sim->position, velocity and scalar.
- * False: none was found from there. */
+/* Solves the equation from a first guess in sim->velocity, and leaves the solution in sim->position, velocity
+ * and scalar. False: none was found from there. */
 bool implicit_solve(struct sim *sim, double c);
 
-/* y = (1 + w) y - w (the start of the step), of positions, velocities and scalars alike; for midpoints and BDF2. */
+/* y = (1 + w) y - w (the start of the step), of positions, velocities and scalars alike;
+ * for midpoints and BDF2. */
 void implicit_extrapolate(struct sim *sim, double w);
 
-/* Sets X, V, S to the present position, velocity and scalars, plus `ahead` times their rates of change at the present forces. */
+/* Sets X, V, S to the present position, velocity and scalars, plus `ahead` times their rates of change
+ * at the present forces. */
 void implicit_base(struct sim *sim, double ahead);
 
-/* Takes a step of dt by take(), which moves the state from where it is over h, or returns false; what it does not get over is
- * halved, down to 1/1024 of dt. Error: STATUS_DIVERGED, with the time and the point that is furthest from a solution. */
+/* Takes a step of dt by take(), which moves the state from where it is over h, or returns false; what it does
+ * not get over is halved, down to 1/1024 of dt. Error: STATUS_DIVERGED, with the time and the point that is
+ * furthest from a solution. */
 enum status implicit_step(struct sim *sim, double dt, bool (*take)(struct sim *sim, double h),
                           struct error *err);
 

@@ -1,4 +1,5 @@
-/* Backward Euler, the implicit midpoint rule, and TR-BDF2: what of the step each of them puts into the equation of implicit.h. */
+/* Backward Euler, the implicit midpoint rule, and TR-BDF2: what of the step each of them puts into the
+ * equation of implicit.h. */
 #include "sim/implicit.h"
 #include "sim/jacobian.h"
 #include "sim/methods.h"
@@ -26,8 +27,8 @@ static void left_part(struct sim *sim, const struct sim_part *part, void *contex
             rhs[p][i] = sim->mass[p] * (start[p][i] - sim->velocity[p][i]) + h * sim->force[p][i];
 }
 
-/* Linearly implicit: (M - h D - h^2 K) dv = h (f + h K v), once. Where forces are so far from linear that this solves less
- * than half of the equation it stands for, Newton's method goes on from there. */
+/* Linearly implicit: (M - h D - h^2 K) dv = h (f + h K v), once. Where forces are so far from linear that
+ * this solves less than half of the equation it stands for, Newton's method goes on from there. */
 static bool take_backward_euler(struct sim *sim, double h)
 {
     struct implicit *m = sim->method;
@@ -99,8 +100,8 @@ const struct integrator integrator_implicit_midpoint = {
 /*
  * A trapezoid over g h, g = 2 - sqrt 2, then BDF2 over its two ends and the step's:
  *     x1 = w x_g - (w - 1) x0 + g/2 h v1,    w = 1 / (g (2 - g)) = (1 + sqrt 2) / 2
- * Both equations have the same c = g h/2. As good as BDF2 and damping what is stiff as fully, but it needs nothing from
- * earlier steps: it keeps its order when an edge breaks or the step changes.
+ * Both equations have the same c = g h/2. As good as BDF2 and damping what is stiff as fully, but it needs
+ * nothing from earlier steps: it keeps its order when an edge breaks or the step changes.
  */
 static bool take_tr_bdf2(struct sim *sim, double h)
 {

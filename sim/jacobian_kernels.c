@@ -1,6 +1,6 @@
 /*
- * Derivatives of springs, dampers and pressure. Compiled once for each set of instructions: SIM_JACOBIAN is the name of the
- * table at the end. All give the same bits, as forces.c does.
+ * Derivatives of springs, dampers and pressure. Compiled once for each set of instructions: SIM_JACOBIAN is
+ * the name of the table at the end. All give the same bits, as forces.c does.
  */
 #include "sim/jacobian_kernels.h"
 
@@ -134,7 +134,8 @@ static void product_edges(struct sim *sim, const struct sim_part *part,
 }
 
 /*
- * As its corners move by dx, a triangle's unit normal n, with the sides s1 and s2 from its first corner, turns by
+ * As its corners move by dx, a triangle's unit normal n, with the sides s1 and s2 from its
+ * first corner, turns by
  *     dn = n x (s2 (n . d1) - s1 (n . d2)) / (2 area),    dk = dx of corner k - dx of corner 0,
  * since only what lifts a corner out of its plane turns it; and the point's by (dN - n (n . dN)) / |N|.
  */
@@ -180,8 +181,8 @@ static inline void add_outer(row block[3], double factor, row u, row g)
         block[i] += factor * u[i] * g;
 }
 
-/* The share of a triangle in how its corner's normal turns when that corner alone moves: dn = -h (n . dx), with h the
- * gradient of the corner's barycentric coordinate, n x (the side across) / (2 area). */
+/* The share of a triangle in how its corner's normal turns when that corner alone moves: dn = -h (n . dx),
+ * with h the gradient of the corner's barycentric coordinate, n x (the side across) / (2 area). */
 static row gradient(const row *x, const uint32_t *p, int corner, row n)
 {
     return n[3] * cross(n, x[p[(corner + 2) % 3]] - x[p[(corner + 1) % 3]]);

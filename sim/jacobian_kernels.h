@@ -1,5 +1,5 @@
-/* The inner loops of the forces' derivatives (jacobian.h), compiled once for each set of instructions like those of the
- * forces (kernels.h). */
+/* The inner loops of the forces' derivatives (jacobian.h), compiled once for each set of instructions like
+ * those of the forces (kernels.h). */
 #ifndef SIM_JACOBIAN_KERNELS_H
 #define SIM_JACOBIAN_KERNELS_H
 
@@ -7,8 +7,8 @@
 
 /* What sim_linearise() keeps. Rows are four doubles, aligned to 32 bytes. */
 struct sim_jacobian {
-    double (*edge)
-        [8]; /* [edge_count] u, t and g, d: see edges(); all 0 for a broken one; a membrane's stand-ins */
+    /* [edge_count] u, t and g, d: see edges(); all 0 for a broken one; a membrane's stand-ins. */
+    double (*edge)[8];
     double (*triangle)[4]; /* [triangle_count] unit normal, 1 / (2 area); all 0 for a torn one */
     double (*point)[4];    /* [point_count] unit normal, pressure / length of the sum of normals */
     double (*turn)[4];     /* [point_count] change of that sum, within a product */

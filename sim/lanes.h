@@ -1,6 +1,7 @@
 /*
- * Four triangles at once: a `lanes` has one number of each of the four, and arithmetic on it is that of GCC's and clang's vectors.
- * The four numbers of a result are what each triangle alone would give, to the bit, whatever the machine's vectors are.
+ * Four triangles at once: a `lanes` has one number of each of the four, and arithmetic on it is that of GCC's
+ * and clang's vectors. The four numbers of a result are what each triangle alone would give, to the bit,
+ * whatever the machine's vectors are.
  */
 #ifndef SIM_LANES_H
 #define SIM_LANES_H
@@ -11,7 +12,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Whether a vector is handed over in one register or in two changes nothing for functions that are all compiled in place. */
+/* Whether a vector is handed over in one register or in two changes nothing for functions that are
+ * all compiled in place. */
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
@@ -116,7 +118,8 @@ static inline struct lanes3 lanes_sum(lanes s, struct lanes3 a, lanes t, struct 
     return (struct lanes3){s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z};
 }
 
-/* One of its numbers, four times; `i` is known when it is compiled. GCC 12 would take numbers but the first out one by one. */
+/* One of its numbers, four times; `i` is known when it is compiled. GCC 12 would take numbers but
+ * the first out one by one. */
 INLINE row lanes_spread(lanes a, int i)
 {
 #ifdef SIM_WIDE
@@ -129,7 +132,8 @@ INLINE row lanes_spread(lanes a, int i)
 #endif
 }
 
-/* The turned table: row i of in is column i of out. Where the machine has no vectors of four, numbers move one by one. */
+/* The turned table: row i of in is column i of out. Where the machine has no vectors of four,
+ * numbers move one by one. */
 static inline void lanes_turn(const row in[4], row out[4])
 {
 #ifdef SIM_WIDE

@@ -1,6 +1,7 @@
 /*
- * Eight numbers of single precision at once, for what is only to be told apart roughly: each result is to be trusted to its rounding and no further
- * (lanes.h has four of double precision). With the machine's own instructions where it has vectors that wide.
+ * Eight numbers of single precision at once, for what is only to be told apart roughly: each result is to be
+ * trusted to its rounding and no further (lanes.h has four of double precision). With the machine's own
+ * instructions where it has vectors that wide.
  */
 #ifndef SIM_LANES8_H
 #define SIM_LANES8_H

@@ -1,7 +1,8 @@
 /*
- * Exponentials and logarithms of four numbers at once, for laws with powers of stretches (lanes.h). Series whose coefficients are those of the
- * functions' definitions, cut where what is left out is below the last bit; relative errors stay below 4e-16. The C
- * library's take one number at a time, and differ from system to system.
+ * Exponentials and logarithms of four numbers at once, for laws with powers of stretches (lanes.h).
+ * Series whose coefficients are those of the functions' definitions, cut where what is left out is below
+ * the last bit; relative errors stay below 4e-16. The C library's take one number at a time, and differ
+ * from system to system.
  */
 #ifndef SIM_LANES_MATH_H
 #define SIM_LANES_MATH_H
@@ -20,7 +21,8 @@ static inline lanes lanes_cubic(const double c[4], lanes x, lanes square)
     return (c[0] + c[1] * x) + (c[2] + c[3] * x) * square;
 }
 
-/* e^x for |x| <= 700; beyond, that of +-700. With x = n ln 2 + r, |r| <= ln 2/2: 2^n (1 + r + r^2/2! + ... + r^13/13!). */
+/* e^x for |x| <= 700; beyond, that of +-700. With x = n ln 2 + r, |r| <= ln 2/2: 2^n (1 + r +
+ * r^2/2! + ... + r^13/13!). */
 static inline lanes lanes_exp(lanes x)
 {
     static const double part[14] = {1,

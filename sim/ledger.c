@@ -3,7 +3,8 @@
 #include "common/vec3.h"
 #include "sim/membrane.h"
 
-/* Sums are over this many shares of the points or edges, whoever works on them: equal to the bit for any number of threads. */
+/* Sums are over this many shares of the points or edges, whoever works on them: equal to the bit for
+ * any number of threads. */
 enum { SHARES = 64 };
 
 struct sum {
@@ -42,7 +43,8 @@ static double pressure_power(const struct sim *sim, const struct sim_balloon *ba
     return sim_point_pressure(balloon) * vec3_dot(sim->normal[p], sim->velocity[p]);
 }
 
-/* A damper's force k_d v . l/|l| along the edge, against the closing speed v . l/|l|: what it takes is never negative. */
+/* A damper's force k_d v . l/|l| along the edge, against the closing speed v . l/|l|: what it
+ * takes is never negative. */
 static double damper_power(const struct sim *sim, const struct sim_balloon *balloon, uint32_t e)
 {
     if (!sim->edge_active[e])

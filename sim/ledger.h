@@ -6,12 +6,12 @@
  *     struct sim_measures m = sim_measure(&sim);
  *     struct ledger_balance b = ledger_balance(&sim, &m);
  *
- * What moves energy while the points move (the pressure's work, what the dampers take) has a rate, and is integrated as a
- * scalar by the same method as the points; what moves it at one moment (an edge lets go, the user changes a spring) is counted
- * then, exactly. So
+ * What moves energy while the points move (the pressure's work, what the dampers take) has a rate, and is
+ * integrated as a scalar by the same method as the points; what moves it at one moment (an edge lets go, the
+ * user changes a spring) is counted then, exactly. So
  *     kinetic + elastic + gas + dissipated + fracture = what there was at the start + pressure's + user's work + error
- * where the error is the method's own, and falls with its order. Without ledger_open() none of it is computed; with it no bit of
- * the state is another.
+ * where the error is the method's own, and falls with its order. Without ledger_open() none of it is
+ * computed; with it no bit of the state is another.
  */
 #ifndef SIM_LEDGER_H
 #define SIM_LEDGER_H
@@ -27,7 +27,8 @@ enum status ledger_open(struct sim *sim, struct error *err);
 /* Counts from the present state on, all accounts at 0. */
 void ledger_begin(struct sim *sim);
 
-/* Sets the rates of the ledger's scalars at the current state; sim->normal must be of that state. For sim_forces(). */
+/* Sets the rates of the ledger's scalars at the current state; sim->normal must be of that
+ * state. For sim_forces(). */
 void ledger_rates(struct sim *sim);
 
 /* Energy of the active springs from edge begin to end: k_s (|l| - r)^2 / 2 each. */
@@ -40,8 +41,9 @@ double ledger_energy(struct sim *sim);
 struct ledger_balance {
     double gas;        /* held by gas, and by what else effects hold; 0 where the pressure is given */
     double dissipated; /* by dampers, obstacles and contact, and what got out with the gas */
-    /* That springs and triangles held when they let go. A tear (topology.h) takes nothing from the skin: what a crack releases moves the skin around it,
-     * and is taken by the dampers there; what its toughness asks for is sim_measures.crack_energy. */
+    /* That springs and triangles held when they let go. A tear (topology.h) takes nothing from the skin: what
+     * a crack releases moves the skin around it, and is taken by the dampers there; what its toughness asks
+     * for is sim_measures.crack_energy. */
     double fracture;
     double pressure_work; /* by the pressure on the points, and by what else effects bring */
     double user_work;     /* by changes of springs in the schedule */

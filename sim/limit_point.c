@@ -8,8 +8,8 @@
 /* Stretches that are looked through, in these ratios. */
 static const double farthest = 20, ratio = 1.001;
 
-/* The pressure that the skin holds at a stretch: of a membrane dW/dL = skin x 2 dw/dL1 with dw/dL1 = 2 L (w_a + L^2 w_D), of springs it is
- * sum k r^2 (L - 1). */
+/* The pressure that the skin holds at a stretch: of a membrane dW/dL = skin x 2 dw/dL1 with dw/dL1 = 2 L (w_a
+ * + L^2 w_D), of springs it is sum k r^2 (L - 1). */
 static double held_at(const struct sim_balloon *b, const struct limit_point *limit, double stretch)
 {
     const double square = stretch * stretch, scale = limit->skin / (3 * limit->rest_volume * square);

@@ -1,6 +1,6 @@
 /*
- * A simulation under the hand, without its picture: it follows the clock, is changed, pricked and pulled between any two steps, and
- * goes back to what it was.
+ * A simulation under the hand, without its picture: it follows the clock, is changed, pricked and pulled
+ * between any two steps, and goes back to what it was.
  *
  *     struct live live;
  *     if (live_open(&live, &sim, 512 << 20, err)) ...           borrows the sim
@@ -39,13 +39,15 @@ struct live {
     struct hand hand;
 };
 
-/* Begins with a sim as it is, whose first frame is kept. `memory` bytes are for the past. It runs at the clock's pace, or, where the scene
- * is filmed in slow motion (view.playback under a quarter of view.rate), at the film's. Error: STATUS_NO_MEMORY; then there is nothing to close. */
+/* Begins with a sim as it is, whose first frame is kept. `memory` bytes are for the past. It runs at the
+ * clock's pace, or, where the scene is filmed in slow motion (view.playback under a quarter of view.rate), at
+ * the film's. Error: STATUS_NO_MEMORY; then there is nothing to close. */
 enum status live_open(struct live *live, struct sim *sim, size_t memory, struct error *err);
 void live_close(struct live *live); /* also of {0} */
 
-/* So many seconds have passed: unless paused, takes the steps that are due by then, for `budget` seconds at most and one at least when one is due. What
- * does not get done in that time is not made up for. Errors: those of sim_step(); then it is paused, and the state is as it was left. */
+/* So many seconds have passed: unless paused, takes the steps that are due by then, for `budget` seconds at
+ * most and one at least when one is due. What does not get done in that time is not made up for. Errors:
+ * those of sim_step(); then it is paused, and the state is as it was left. */
 enum status live_run(struct live *live, double seconds, double budget, struct error *err);
 
 /* One step, also while paused. Errors as above. */
@@ -58,8 +60,8 @@ bool live_pumps(const struct live *live);
 const char *live_name(const struct live *live, enum live_dial dial);
 const char *live_unit(const struct live *live, enum live_dial dial);
 
-/* A dial's value, of the first balloon; sets it, for all, limited to the scene's range. The pace is 1e-6 to 1e6. A pump that is turned by hand
- * goes on past the scene's pump_until. */
+/* A dial's value, of the first balloon; sets it, for all, limited to the scene's range. The pace is 1e-6 to
+ * 1e6. A pump that is turned by hand goes on past the scene's pump_until. */
 double live_value(const struct live *live, enum live_dial dial);
 void live_turn(struct live *live, enum live_dial dial, double value);
 

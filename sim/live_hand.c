@@ -6,8 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A patch has this radius, in mean rest lengths of its balloon; its springs are this many times the balloon's: strong enough to tear
- * the skin of the paper's balloons, weak enough to leave a step that is stable so. */
+/* A patch has this radius, in mean rest lengths of its balloon; its springs are this many times
+ * the balloon's: strong enough to tear the skin of the paper's balloons, weak enough to leave a
+ * step that is stable so. */
 static const double patch_radius = 2.5, stiffness_ratio = 1;
 
 /* Where the ray meets the triangle: Moller and Trumbore, J. Graphics Tools 2 (1997) 21. */
@@ -134,7 +135,8 @@ static struct sim_balloon *balloon_of(const struct sim *sim, uint32_t triangle)
     return b;
 }
 
-/* Weights fall as (1 - r^2)^2 from the hit to the patch's edge; the hit's own corners are held however far they are. */
+/* Weights fall as (1 - r^2)^2 from the hit to the patch's edge; the hit's own corners are
+ * held however far they are. */
 static void add_finger(struct hand *hand, const struct sim *sim, const struct sim_balloon *balloon,
                        const struct hand_hit *hit, uint32_t p)
 {

@@ -9,9 +9,9 @@
  *     hand_let_go(&hand, &sim);
  *     hand_close(&hand, &sim);
  *
- * A grip is a spring from each point of the patch to where that point would be if it had followed the hand, weaker towards the
- * patch's edge, so that no triangle is drawn out to a spike: an effect on the forces like any other, with its share of the guard's bound, that is
- * only entered while something is held.
+ * A grip is a spring from each point of the patch to where that point would be if it had followed the hand,
+ * weaker towards the patch's edge, so that no triangle is drawn out to a spike: an effect on the forces like
+ * any other, with its share of the guard's bound, that is only entered while something is held.
  */
 #ifndef SIM_LIVE_HAND_H
 #define SIM_LIVE_HAND_H

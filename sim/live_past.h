@@ -1,5 +1,6 @@
 /*
- * What a simulation was: its states frame by frame, as far back as a number of frames and an amount of memory reach.
+ * What a simulation was: its states frame by frame, as far back as a number of frames and an
+ * amount of memory reach.
  *
  *     struct live_past past = {.frames_most = 1500, .bytes_most = 512 << 20};
  *     if (live_past_add(&past, &sim, marks, err)) ...      a frame is there
@@ -7,9 +8,9 @@
  *     live_past_forget_after(&past, i);                    before the sim goes on from there
  *     live_past_clear(&past);
  *
- * A state is sim_blocks(), so that what follows a restored one is equal to the bit to what followed the first time. Blocks that did
- * not change since the frame before are held once. When memory runs out every second frame is let go, the newest but one first in
- * line to stay; the one that was added first is always kept.
+ * A state is sim_blocks(), so that what follows a restored one is equal to the bit to what followed the first
+ * time. Blocks that did not change since the frame before are held once. When memory runs out every second
+ * frame is let go, the newest but one first in line to stay; the one that was added first is always kept.
  */
 #ifndef SIM_LIVE_PAST_H
 #define SIM_LIVE_PAST_H

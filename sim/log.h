@@ -9,13 +9,14 @@ struct sim_log;
 struct sim_log_options {
     bool position_error; /* a column for --estimate */
     bool keep;           /* the rows, for sim_log_rows() */
-    const char
-        *rows; /* [row_bytes] of an earlier part of the run: these come first; the header is among them */
+    /* [row_bytes] of an earlier part of the run: these come first; the header is among them. */
+    const char *rows;
     size_t row_bytes;
     double seconds; /* that it took */
 };
 
-/* Begins, in a file, or, where path is NULL, for sim_log_rows() alone. Errors: STATUS_FILE, STATUS_NO_MEMORY, STATUS_INPUT when the earlier rows have other columns. */
+/* Begins, in a file, or, where path is NULL, for sim_log_rows() alone. Errors: STATUS_FILE, STATUS_NO_MEMORY,
+ * STATUS_INPUT when the earlier rows have other columns. */
 enum status sim_log_open(const char *path, const struct sim_log_options *options, struct sim_log **log,
                          struct error *err);
 

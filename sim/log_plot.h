@@ -6,8 +6,8 @@
 
 #include <stddef.h>
 
-/* Draws the rows of a log, which begin with its header (sim_log_rows()), into a file that common/plot.h can write; `title` stands above.
- * Errors: those of plot_save(). */
+/* Draws the rows of a log, which begin with its header (sim_log_rows()), into a file that common/plot.h can
+ * write; `title` stands above. Errors: those of plot_save(). */
 enum status log_plot_save(const char *rows, size_t bytes, const char *title, const char *path,
                           struct error *err);
 

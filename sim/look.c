@@ -1,4 +1,5 @@
-/* A look at a moment inside the last step, for pictures and logs that want their own times: the run does not notice. */
+/* A look at a moment inside the last step, for pictures and logs that want their own times:
+ * the run does not notice. */
 #include "common/array.h"
 #include "sim/sim.h"
 #include "sim/vectors.h"

@@ -1,6 +1,6 @@
-/* Makes balloon-sim's man page when the project is built: manual TEMPLATE puts the scene's keys, from the table that the
- * program itself goes by, in place of the line @KEYS@, and breaks lines of text that are longer than 80 bytes, as
- * mandoc -T lint wants them. */
+/* Makes balloon-sim's man page when the project is built: manual TEMPLATE puts the scene's keys, from the
+ * table that the program itself goes by, in place of the line @KEYS@, and breaks lines of text that are
+ * longer than 80 bytes, as mandoc -T lint wants them. */
 #include "common/scene.h"
 
 #include <stdio.h>
@@ -9,7 +9,8 @@
 
 enum { WIDTH = 79 };
 
-/* A line of text in lines of at most WIDTH bytes. Of the table's words ("Phys. Rev.") none ends a sentence. */
+/* A line of text in lines of at most WIDTH bytes. Of the table's words ("Phys.
+ * Rev.") none ends a sentence. */
 static void put_text(char *line, bool sentences)
 {
     size_t used = 0;

@@ -1,4 +1,5 @@
-/* "As the surface of the balloon stretches, it should look shinier and it should get more translucent" (paper 3.3). */
+/* "As the surface of the balloon stretches, it should look shinier and it should get more
+ * translucent" (paper 3.3). */
 #include "sim/sim.h"
 
 #include <math.h>
@@ -11,9 +12,10 @@ static const struct sim_balloon *balloon_of(const struct sim *sim, uint32_t tria
     return b;
 }
 
-/* A triangle's stretch L is the mean length of its three edges over their mean rest length. Rubber keeps its volume, so
- * the film thins as 1/L^2, and by the law of Beer and Lambert its transmittance 1 - opacity becomes the rest's to the
- * power 1/L^2. The highlight's exponent grows as L^4: the bumps of the skin flatten. */
+/* A triangle's stretch L is the mean length of its three edges over their mean rest length. Rubber
+ * keeps its volume, so the film thins as 1/L^2, and by the law of Beer and Lambert its transmittance
+ * 1 - opacity becomes the rest's to the power 1/L^2. The highlight's exponent grows as L^4: the
+ * bumps of the skin flatten. */
 void sim_material(const struct sim *sim, float *opacity, float *shininess)
 {
     for (uint32_t t = 0; t < sim->triangle_count; t++) {

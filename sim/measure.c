@@ -4,8 +4,8 @@
 #include "sim/fracture.h"
 #include "sim/membrane.h"
 
-/* Pieces are a forest over the edges, in which each active triangle joins its three: two triangles hang together where
- * they share an edge. */
+/* Pieces are a forest over the edges, in which each active triangle joins its three: two triangles hang
+ * together where they share an edge. */
 static uint32_t root_of(uint32_t *parent, uint32_t e)
 {
     while (parent[e] != e)
@@ -36,7 +36,8 @@ void sim_find_pieces(struct sim *sim)
         }
 }
 
-/* By Heron's formula in Kahan's stable form ("Miscalculating area and angles of a needle-like triangle", 2014): a >= b >= c. */
+/* By Heron's formula in Kahan's stable form ("Miscalculating area and angles of a needle-like
+ * triangle", 2014): a >= b >= c. */
 double sim_rest_area(const struct sim *sim, uint32_t t)
 {
     const uint32_t *edge = sim->triangle_edge[t];
@@ -136,7 +137,8 @@ static void measure_elastic(struct sim *sim, struct sim_measures *m)
             m->elastic_energy += membrane_elastic(sim, b);
 }
 
-/* Shear modulus times thickness: of springs that of a lattice of them, sqrt(3)/4 k (Seung & Nelson, Phys. Rev. A 38 (1988) 1005). */
+/* Shear modulus times thickness: of springs that of a lattice of them, sqrt(3)/4 k (Seung & Nelson, Phys.
+ * Rev. A 38 (1988) 1005). */
 static double stiffness_of(const struct sim *sim, const struct sim_balloon *b)
 {
     double sum = 0;

@@ -1,4 +1,5 @@
-/* Areas and pieces of a skin: what the log, the table of pieces and the series of meshes have in common (measure.c). */
+/* Areas and pieces of a skin: what the log, the table of pieces and the series of meshes have
+ * in common (measure.c). */
 #ifndef SIM_MEASURE_H
 #define SIM_MEASURE_H
 
@@ -11,7 +12,8 @@ double sim_rest_area(const struct sim *sim, uint32_t triangle);
 /* Joins the active triangles that share an edge, in sim->piece. O(triangles). */
 void sim_find_pieces(struct sim *sim);
 
-/* Of an active triangle, after sim_find_pieces(): an edge of its piece, the same for all of the piece's triangles. */
+/* Of an active triangle, after sim_find_pieces(): an edge of its piece, the same for all of
+ * the piece's triangles. */
 uint32_t sim_piece_of(struct sim *sim, uint32_t triangle);
 
 #endif

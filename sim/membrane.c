@@ -1,4 +1,5 @@
-/* What is asked of a membrane but seldom: one triangle's state, sums, and how stiff it can be. The loops are membrane_kernels.c's. */
+/* What is asked of a membrane but seldom: one triangle's state, sums, and how stiff it can be. The loops
+ * are membrane_kernels.c's. */
 #include "sim/membrane.h"
 #include "common/threads.h"
 #include "common/vec3.h"
@@ -66,7 +67,8 @@ double membrane_rest_area(const struct sim_balloon *balloon, uint32_t triangle)
     return m->rest[triangle - balloon->triangle_begin][3] / (m->modulus * m->thickness);
 }
 
-/* -area grad N_i . grad N_j for the two ends of the side; the gradients of the second and third corner are the rows of the triangle's matrix. */
+/* -area grad N_i . grad N_j for the two ends of the side; the gradients of the second and third corner are
+ * the rows of the triangle's matrix. */
 double membrane_edge_share(const struct sim_balloon *balloon, uint32_t triangle, int side)
 {
     const double *b = balloon->membrane->rest[triangle - balloon->triangle_begin];
@@ -142,8 +144,8 @@ double membrane_dissipation(struct sim *sim, const struct sim_balloon *balloon)
                : 0;
 }
 
-/* The largest eigenvalue of the second derivative at one state, L1 >= L2: in the plane along both stretches, in shear and in rotation;
- * out of the plane, across which the stress alone resists. */
+/* The largest eigenvalue of the second derivative at one state, L1 >= L2: in the plane along both stretches,
+ * in shear and in rotation; out of the plane, across which the stress alone resists. */
 static double stiffness_at(const struct membrane_law *law, double q1, double q2)
 {
     const double gap = (q1 - q2) * (q1 - q2), l1 = sqrt(q1), l2 = sqrt(q2);
@@ -172,10 +174,12 @@ double membrane_stiffness(const struct membrane_law *law, const double range[2])
     return margin * stiffest;
 }
 
-/* Springs k in equilateral triangles have the modulus 3 sqrt 3/4 k along a line; edge_weight is 1/sqrt 3 there. */
+/* Springs k in equilateral triangles have the modulus 3 sqrt 3/4 k along a line;
+ * edge_weight is 1/sqrt 3 there. */
 static const double springs_share = 4 / 3.0;
 
-/* As if the skin were stretched both ways as much as the edge. What is shorter than at rest counts as at rest, and there is an end. */
+/* As if the skin were stretched both ways as much as the edge. What is shorter than at rest counts as at
+ * rest, and there is an end. */
 static void stand_in_for_edge(const struct membrane *m, double stretch, double weight, const double u[3],
                               double row[8])
 {

@@ -1,6 +1,6 @@
 /*
- * A membrane's forces, energies and derivatives, four triangles at a time (lanes.h). Compiled once for each set of instructions:
- * SIM_MEMBRANE is the name of the table at the end. The formulas are in membrane.h.
+ * A membrane's forces, energies and derivatives, four triangles at a time (lanes.h). Compiled once for each
+ * set of instructions: SIM_MEMBRANE is the name of the table at the end. The formulas are in membrane.h.
  */
 #include "sim/membrane_kernels.h"
 #include "sim/membrane_response.h"
@@ -138,8 +138,8 @@ INLINE bool reaches(const struct reach *to, uint32_t point)
     return to->all || point - to->begin < to->count;
 }
 
-/* Adds K d to the rows of the triangles' corners, one triangle after the other; those of other parts' points are left out, unless it is known
- * when this is compiled that there are none. */
+/* Adds K d to the rows of the triangles' corners, one triangle after the other; those of other parts' points
+ * are left out, unless it is known when this is compiled that there are none. */
 INLINE void add_to_corners(const struct tables *t, const struct group *g, struct lanes3 f1, struct lanes3 f2,
                            const struct reach *to, row *out)
 {
@@ -158,7 +158,8 @@ INLINE void add_to_corners(const struct tables *t, const struct group *g, struct
     }
 }
 
-/* What all the loops go by: forces of a group, or something else of it. `kind` and `viscous` are known when it is compiled. */
+/* What all the loops go by: forces of a group, or something else of it. `kind` and `viscous` are
+ * known when it is compiled. */
 INLINE void group_forces(const struct tables *t, const struct group *g, enum membrane_kind kind, bool viscous,
                          const struct reach *to, row *force, struct stretched *range)
 {
@@ -213,7 +214,8 @@ static void walk_forces(struct sim *sim, const struct sim_part *part, struct wal
         group_forces(&t, &g, t.law->kind, t.viscosity > 0, &own, sim->rows.force, range);
 }
 
-/* The same of a chunk's own, most of which follow each other by fours that are active and have all points in the part. */
+/* The same of a chunk's own, most of which follow each other by fours that are active and have
+ * all points in the part. */
 INLINE void chunk_forces(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk,
                          enum membrane_kind kind, bool viscous, struct stretched *range)
 {
@@ -259,7 +261,8 @@ static void forces(struct sim *sim, const struct sim_part *part, const struct si
     kept[1] = fmin(fmin(range.d[0], range.d[1]), fmin(range.d[2], range.d[3]));
 }
 
-/* With df = K dd + dK d: dK = ds M + du cof G + u cof dG, and that of the damping, c N: c = -V eta/a, N = M dG/dt M. */
+/* With df = K dd + dK d: dK = ds M + du cof G + u cof dG, and that of the damping, c N: c =
+ * -V eta/a, N = M dG/dt M. */
 INLINE void group_product(const struct tables *t, const struct group *g, enum membrane_kind kind,
                           const struct reach *to, const struct jacobian_product *product)
 {

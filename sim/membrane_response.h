@@ -1,6 +1,6 @@
 /*
- * W(a, D) of a law (membrane_law.h) and its derivatives, of four triangles at once, with wrinkling (membrane.h). For the membrane's
- * kernels, which are compiled once for each set of instructions.
+ * W(a, D) of a law (membrane_law.h) and its derivatives, of four triangles at once, with wrinkling
+ * (membrane.h). For the membrane's kernels, which are compiled once for each set of instructions.
  */
 #ifndef SIM_MEMBRANE_RESPONSE_H
 #define SIM_MEMBRANE_RESPONSE_H
@@ -8,7 +8,8 @@
 #include "sim/lanes_math.h"
 #include "sim/membrane_law.h"
 
-/* How a triangle is stretched: a, D and (L1^2 - L2^2)^2, which a^2 - 4 D would give with few digits where L1 is near L2. */
+/* How a triangle is stretched: a, D and (L1^2 - L2^2)^2, which a^2 - 4 D would give with few
+ * digits where L1 is near L2. */
 struct stretched {
     lanes a, d, gap;
 };
@@ -54,9 +55,9 @@ INLINE struct response gent_response(const struct membrane_law *law, struct stre
     return w;
 }
 
-/* T(x) = cosh(v arcosh x), Chebyshev's polynomial with a degree v that need not be whole, and its derivatives. Near x = 1 by its series,
- * whose k-th coefficient is that before times (v^2 - (k-1)^2)/(k (2k - 1)); elsewhere by T' = v sinh(v y)/sinh y and
- * (x^2 - 1) T'' = v^2 T - x T'. z = x - 1, y = arcosh x. */
+/* T(x) = cosh(v arcosh x), Chebyshev's polynomial with a degree v that need not be whole, and its
+ * derivatives. Near x = 1 by its series, whose k-th coefficient is that before times (v^2 - (k-1)^2)/(k (2k -
+ * 1)); elsewhere by T' = v sinh(v y)/sinh y and (x^2 - 1) T'' = v^2 T - x T'. z = x - 1, y = arcosh x. */
 struct chebyshev {
     lanes value, first, second;
 };
@@ -86,7 +87,8 @@ INLINE struct chebyshev chebyshev_far(double v, lanes z, lanes y)
     return t;
 }
 
-/* x < 1, with cosines: only where both stretches of a crushed triangle are small. One by one, since it is seldom. */
+/* x < 1, with cosines: only where both stretches of a crushed triangle are small. One by
+ * one, since it is seldom. */
 static __attribute__((noinline)) struct chebyshev chebyshev_below(double v, lanes z)
 {
     struct chebyshev t = {lanes_all(0), lanes_all(0), lanes_all(0)};
@@ -134,8 +136,8 @@ struct by_sums {
     lanes value, s, p, ss, sp, pp;
 };
 
-/* For a whole n, with U_k = (L1^k - L2^k)/(L1 - L2) = S U_(k-1) - P U_(k-2) and V_k = dU_k/dS: U_n and U_(n-1); V_n, V_(n-1) and V_(n-2);
- * L1^n + L2^n = S U_n - 2 P U_(n-1); P^-n and P^(n-1). */
+/* For a whole n, with U_k = (L1^k - L2^k)/(L1 - L2) = S U_(k-1) - P U_(k-2) and V_k = dU_k/dS: U_n and
+ * U_(n-1); V_n, V_(n-1) and V_(n-2); L1^n + L2^n = S U_n - 2 P U_(n-1); P^-n and P^(n-1). */
 struct multiplied {
     lanes u, u1, v, v1, v2, both, shrunk, grown;
 };
@@ -159,7 +161,8 @@ INLINE struct multiplied multiply_out(const struct sums *at, int n)
     return m;
 }
 
-/* L1^n + L2^n + L3^n - 3, times a weight: the sum's derivatives by S and P are n U_n and -n U_(n-1), and dU_k/dP is -V_(k-1). */
+/* L1^n + L2^n + L3^n - 3, times a weight: the sum's derivatives by S and P are n U_n and -n U_(n-1),
+ * and dU_k/dP is -V_(k-1). */
 INLINE void add_positive(struct by_sums *f, const struct sums *at, int n, double weight)
 {
     const struct multiplied m = multiply_out(at, n);
@@ -211,7 +214,8 @@ INLINE struct response whole_response(const struct membrane_law *law, const stru
     return w;
 }
 
-/* Adds those with any powers. With x = a/(2 P), L1^alpha + L2^alpha = 2 D^(alpha/4) T(x) of the degree alpha/2, and L3^alpha = D^(-alpha/2). */
+/* Adds those with any powers. With x = a/(2 P), L1^alpha + L2^alpha = 2 D^(alpha/4) T(x) of the degree
+ * alpha/2, and L3^alpha = D^(-alpha/2). */
 INLINE void add_powers(struct response *w, const struct membrane_law *law, struct stretched s,
                        const struct sums *at, int asked)
 {
@@ -275,12 +279,14 @@ static __attribute__((noinline)) struct response crushed_response(const struct m
     return w;
 }
 
-/* The least r by which second derivatives are divided, twice and thrice: what cancels there leaves rounding errors of 1e-16/r^2, the size of the
- * derivatives themselves at rest, where r is rounding. Where the stretches are nearer to each other than this they come out too small. */
+/* The least r by which second derivatives are divided, twice and thrice: what cancels there leaves rounding
+ * errors of 1e-16/r^2, the size of the derivatives themselves at rest, where r is rounding. Where the
+ * stretches are nearer to each other than this they come out too small. */
 #define WRINKLED_APART 1e-5
 
 /*
- * The energy of a pull along L1 alone, w(q) = W(q + q^-1/2, q^1/2) with q = L1^2, the larger eigenvalue (a + r)/2, r = L1^2 - L2^2:
+ * The energy of a pull along L1 alone, w(q) = W(q + q^-1/2, q^1/2) with q = L1^2, the larger eigenvalue (a +
+ * r)/2, r = L1^2 - L2^2:
  *     w' = W_a + q2 W_D (since L2 is where W is least),   w'' = dw'/dq + dw'/dq2 dq2/dq,   q2 = q^-1/2,
  * and dq/da = q/r, dq/dD = -1/r. Nothing is held where q < 1.
  */
@@ -291,7 +297,8 @@ INLINE struct response wrinkled_response(const struct membrane_law *law, enum me
                 q2 = 1 / root;
     const lanes gap = (q - q2) * (q - q2);
     const struct response w = law_response(law, kind, (struct stretched){q + q2, root, gap}, asked);
-    /* What is slack has r > q - q2 > 0 or q < 1, but rounding has not, and over an r of 0 it would not be small. */
+    /* What is slack has r > q - q2 > 0 or q < 1, but rounding has not, and over an r of 0
+     * it would not be small. */
     const lane_mask taut = (lane_mask)(true_q > 1);
     const lanes i = 1 / lanes_max(lanes_max(r, q - q2), lanes_all(1e-100));
     const lanes first = lanes_select(taut, w.a + q2 * w.d, lanes_all(0));

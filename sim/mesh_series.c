@@ -45,7 +45,8 @@ static bool add_to_list(struct mesh_series *series, uint64_t number, double time
     return true;
 }
 
-/* Of a run that is gone on with: the meshes before the first, by the list that it has left. Without one they are not listed. */
+/* Of a run that is gone on with: the meshes before the first, by the list that it has left. Without
+ * one they are not listed. */
 static enum status read_list(struct mesh_series *series, struct error *err)
 {
     struct bytes bytes = {0};

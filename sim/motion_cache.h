@@ -1,5 +1,6 @@
-/* The skin's motion for programs that play it back: FILE.pc2 (point_cache.h) a sample a frame, and FILE.ply, the mesh that it moves, as it is at the first of
- * them; each triangle has points of its own (skin_mesh.h). */
+/* The skin's motion for programs that play it back: FILE.pc2 (point_cache.h) a sample a frame,
+ * and FILE.ply, the mesh that it moves, as it is at the first of them; each triangle has points
+ * of its own (skin_mesh.h). */
 #ifndef SIM_MOTION_CACHE_H
 #define SIM_MOTION_CACHE_H
 
@@ -7,7 +8,8 @@
 
 struct motion_cache;
 
-/* `path` ends in .pc2; first: number of the first frame. `sim` is borrowed. Errors: STATUS_FILE, STATUS_NO_MEMORY, STATUS_RANGE. */
+/* `path` ends in .pc2; first: number of the first frame. `sim` is borrowed. Errors: STATUS_FILE,
+ * STATUS_NO_MEMORY, STATUS_RANGE. */
 enum status motion_cache_open(struct sim *sim, const char *path, uint64_t first, struct motion_cache **cache,
                               struct error *err);
 

@@ -155,8 +155,8 @@ static bool is_inside_any(const struct obstacles *obstacles, const double x[3])
     return false;
 }
 
-/* Puts the point in front of the surface, further and further until rounding agrees; between two surfaces that leave no room for it, back to
- * where it was. */
+/* Puts the point in front of the surface, further and further until rounding agrees; between two surfaces
+ * that leave no room for it, back to where it was. */
 static void put_outside(const struct obstacles *obstacles, const double normal[3], const double last[3],
                         double x[3])
 {
@@ -237,7 +237,8 @@ static void settle_part(struct sim *sim, const struct sim_part *part, void *cont
     obstacles->found[part - sim->parts] = found;
 }
 
-/* From each balloon's box as a whole: which does not depend on how its points are shared out. What was turned stays in it, or at the surface. */
+/* From each balloon's box as a whole: which does not depend on how its points are shared out. What was turned
+ * stays in it, or at the surface. */
 static double find_room(const struct sim *sim, const struct sim_balloon *b)
 {
     struct obstacles_found all = nothing;

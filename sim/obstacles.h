@@ -1,6 +1,7 @@
 /*
- * What stands in the way of points: a half-space, spheres, boxes. No point ends a step inside one, however fast it is: its whole way over
- * the step is looked at, and where the way enters, the rest of it goes on along the surface, with Coulomb's friction.
+ * What stands in the way of points: a half-space, spheres, boxes. No point ends a step inside one, however
+ * fast it is: its whole way over the step is looked at, and where the way enters, the rest of it goes on
+ * along the surface, with Coulomb's friction.
  */
 #ifndef SIM_OBSTACLES_H
 #define SIM_OBSTACLES_H
@@ -29,17 +30,19 @@ struct obstacles {
     } * found;            /* [part_count] owned */
 };
 
-/* How far the obstacle is at the least from anything in a box, which is its smallest and largest coordinates, less what rounding may make of it; 0 or
- * less: it may meet it. */
+/* How far the obstacle is at the least from anything in a box, which is its smallest and largest coordinates,
+ * less what rounding may make of it; 0 or less: it may meet it. */
 double obstacle_gap(const struct obstacle *o, double box[2][4]);
 
 /* Whether the place is inside. */
 bool obstacle_holds(const struct obstacle *o, const double x[3]);
 
-/* Where on the way from a, outside, to b it enters: 0 to 1, with the outward normal there; INFINITY where it does not. */
+/* Where on the way from a, outside, to b it enters: 0 to 1, with the outward normal there;
+ * INFINITY where it does not. */
 double obstacle_entry(const struct obstacle *o, const double a[3], const double b[3], double normal[3]);
 
-/* Takes the way of one point from `from` to x, and its velocity, around everything. True when it met something. */
+/* Takes the way of one point from `from` to x, and its velocity, around everything. True
+ * when it met something. */
 bool obstacles_turn(const struct obstacles *obstacles, const double from[3], double x[3], double velocity[3]);
 
 /* All points, after a step from sim->before. True when one met something. */

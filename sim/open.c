@@ -1,5 +1,5 @@
-/* "Once the triangles of the surface are created, they are loaded into the simulation application and are uniquely
- * sorted into data structures for points, edges, and triangles" (paper 3.5). */
+/* "Once the triangles of the surface are created, they are loaded into the simulation application and are
+ * uniquely sorted into data structures for points, edges, and triangles" (paper 3.5). */
 #include "common/array.h"
 #include "common/threads.h"
 #include "common/vec3.h"
@@ -262,8 +262,8 @@ enum status sim_add_scalars(struct sim *sim, uint32_t count, uint32_t *first, st
     return STATUS_OK;
 }
 
-/* Two workers that wait for each other several times a step gain nothing on a small balloon, and lose much where the machine
- * has other things to do. */
+/* Two workers that wait for each other several times a step gain nothing on a small balloon, and lose much
+ * where the machine has other things to do. */
 static unsigned useful_workers(const struct sim *sim)
 {
     enum { POINTS_TO_SHARE = 8192 };

@@ -23,8 +23,8 @@ struct options {
     bool window; /* asked for, or no output is */
 };
 
-/* Reads the command line; texts are borrowed from argv. Wrong usage ends the program with 2, --help and --version with 0.
- * False: not enough memory. */
+/* Reads the command line; texts are borrowed from argv. Wrong usage ends the program with 2, --help and
+ * --version with 0. False: not enough memory. */
 bool options_parse(struct options *options, int argc, char **argv);
 void options_clear(struct options *options);
 

@@ -28,8 +28,8 @@ struct outputs {
 /* Remembers where everything is at rest: before a state is loaded. */
 void outputs_find_rest(struct outputs *outputs, const struct sim *sim);
 
-/* Opens what the options ask for; *outputs has its estimate and where it rests, else it is empty. `past` is the part of the run before it was
- * resumed: frames and rows go on from there; NULL: there is none. */
+/* Opens what the options ask for; *outputs has its estimate and where it rests, else it is empty. `past` is
+ * the part of the run before it was resumed: frames and rows go on from there; NULL: there is none. */
 enum status outputs_open(struct outputs *outputs, const struct options *options, struct sim *sim,
                          const struct checkpoint_run *past, struct error *err);
 
@@ -39,8 +39,9 @@ enum status outputs_show(struct outputs *outputs, struct sim *sim, struct error 
 /* After the last step: draws what is only drawn of the last state. */
 enum status outputs_finish(struct outputs *outputs, struct error *err);
 
-/* Ends all, after a run that ended with `status`: one that diverged or was interrupted keeps what it has shown so far; any other
- * failure leaves the old log, movie and sheet. Returns that status, or the first failure here. */
+/* Ends all, after a run that ended with `status`: one that diverged or was interrupted keeps what it
+ * has shown so far; any other failure leaves the old log, movie and sheet. Returns that status, or
+ * the first failure here. */
 enum status outputs_close(struct outputs *outputs, enum status status, struct error *err);
 
 #endif

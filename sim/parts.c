@@ -14,7 +14,8 @@ static uint32_t lowest(const uint32_t *point, int corners)
     return low;
 }
 
-/* Counting sort: items by their lowest points, and otherwise as they came. count has a place for each point. */
+/* Counting sort: items by their lowest points, and otherwise as they came. count has
+ * a place for each point. */
 static void order(const uint32_t *points, int corners, uint32_t items, uint32_t *count, uint32_t point_count,
                   uint32_t *place)
 {
@@ -96,7 +97,8 @@ static bool has_room(const struct sim_balloon *b)
     return b->point_room > b->point_end;
 }
 
-/* The part that works on a torn balloon's new points: nothing as yet, but with room for all that can come in. */
+/* The part that works on a torn balloon's new points: nothing as yet, but with room
+ * for all that can come in. */
 static bool make_tail(struct sim *sim, struct sim_part *part)
 {
     enum { FAN = 8 }; /* triangles that get a new point with each: half a fan, mostly */
@@ -179,8 +181,8 @@ void parts_loosen_triangle(struct sim *sim, const struct sim_balloon *balloon, u
 /* Points of a chunk: with their neighbours they take about a tenth of a megabyte for each thousand. */
 enum { CHUNK_POINTS = 2048 };
 
-/* One more than the largest corner of the items, but no more than `most`; *inner_end becomes the first item that has a
- * corner from `most` on. */
+/* One more than the largest corner of the items, but no more than `most`; *inner_end becomes the first item
+ * that has a corner from `most` on. */
 static uint32_t touched_end(const uint32_t *points, int corners, uint32_t begin, uint32_t end, uint32_t most,
                             uint32_t *inner_end)
 {

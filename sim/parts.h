@@ -10,8 +10,9 @@
 struct sim;
 struct sim_balloon;
 
-/* A share of one balloon's points: whoever works on it writes to these alone, and adds up what acts on a point in the order
- * of edges and triangles, so that sums are equal to the bit however many parts there are. */
+/* A share of one balloon's points: whoever works on it writes to these alone, and adds up what
+ * acts on a point in the order of edges and triangles, so that sums are equal to the bit
+ * however many parts there are. */
 struct sim_part {
     struct sim_balloon *balloon;
     uint32_t point_begin, point_end;
@@ -26,8 +27,8 @@ struct sim_part {
     uint32_t chunk_count;
 };
 
-/* A stretch of a part that stays in a core's cache while all its forces are worked out; after it the forces on its points
- * are complete, since edges and triangles stand in the order of their lowest points. */
+/* A stretch of a part that stays in a core's cache while all its forces are worked out; after it the forces
+ * on its points are complete, since edges and triangles stand in the order of their lowest points. */
 struct sim_chunk {
     uint32_t point_begin, point_end;
     uint32_t clear_begin, clear_end;       /* points that are touched here for the first time */
@@ -42,14 +43,15 @@ void sim_each_part(struct sim *sim,
                    void (*function)(struct sim *sim, const struct sim_part *part, void *context),
                    void *context);
 
-/* Orders edges and triangles by their points and shares out the points among the workers (parts.c). edge_place[i] becomes
- * where edge i of the mesh goes, from 0 on; triangle_place likewise. */
+/* Orders edges and triangles by their points and shares out the points among the workers (parts.c).
+ * edge_place[i] becomes where edge i of the mesh goes, from 0 on; triangle_place likewise. */
 void parts_order(const struct mesh *mesh, uint32_t *edge_place, uint32_t *triangle_place, uint32_t *count);
 enum status parts_open(struct sim *sim, struct error *err);
 void parts_close(struct sim *sim);
 
-/* For cuts (topology.h), none of which allocates. The part of new points reaches this far; a new edge comes into a part with
- * some of its points; all such edges go again; an edge or a triangle has got points that another part works on. */
+/* For cuts (topology.h), none of which allocates. The part of new points reaches this far; a new edge comes
+ * into a part with some of its points; all such edges go again; an edge or a triangle has got points that
+ * another part works on. */
 void parts_extend(struct sim_part *tail, uint32_t point_end, uint32_t edge_end);
 void parts_take_edge(struct sim_part *part, uint32_t edge);
 void parts_forget(struct sim *sim, const struct sim_balloon *balloon);

@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What is added up about a piece, about its centre: angular momentum, and mass x products of the places (its second moments). */
+/* What is added up about a piece, about its centre: angular momentum, and mass x products of the
+ * places (its second moments). */
 struct sums {
     double angular[3], moment[3][3];
 };
@@ -111,8 +112,8 @@ static void measure_turning(struct making *m)
         }
 }
 
-/* I = tr M - M, M the sum of m x x^T. On a line along u, M = s u u^T and I is s across it and 0 along it: I w = L with w across is
- * w = L/s, s = tr I/2. */
+/* I = tr M - M, M the sum of m x x^T. On a line along u, M = s u u^T and I is s across it and 0 along it: I w
+ * = L with w across is w = L/s, s = tr I/2. */
 static void turn(struct piece *piece, const struct sums *sums)
 {
     double inertia[3][3], across[3][3];

@@ -6,8 +6,9 @@
  *     if (piece_table_save(&table, "pieces.tsv", err)) ...
  *     piece_table_clear(&table);
  *
- * A piece is what hangs together by edges. Where skin is only dropped, as in the paper, two pieces may still touch at a point: its mass
- * is then shared out by their areas at rest around it. Points that carry no skin belong to no piece.
+ * A piece is what hangs together by edges. Where skin is only dropped, as in the paper, two pieces may
+ * still touch at a point: its mass is then shared out by their areas at rest around it. Points that carry
+ * no skin belong to no piece.
  */
 #ifndef SIM_PIECE_TABLE_H
 #define SIM_PIECE_TABLE_H
@@ -22,8 +23,8 @@ struct piece {
     double mass;
     double centre[3];   /* of mass */
     double velocity[3]; /* of that centre, length/s: momentum over mass */
-    /* Angular velocity, 1/s: w with I w = L, of angular momentum and moments of inertia about the centre. What lies on one line has no
-     * moment around it, and there no spin. */
+    /* Angular velocity, 1/s: w with I w = L, of angular momentum and moments of inertia about the centre.
+     * What lies on one line has no moment around it, and there no spin. */
     double spin[3];
 };
 

@@ -14,8 +14,9 @@ static int across(const struct sim *sim, const struct sim_balloon *b, uint32_t t
     return k;
 }
 
-/* Triangles of the piece that would fall off if the side were cut between two points of a rim, from `triangle` on and no more than
- * `most` of them, in fracture->list; their area at rest is added up. Returns their count, or UINT32_MAX when there are more. */
+/* Triangles of the piece that would fall off if the side were cut between two points of a rim, from
+ * `triangle` on and no more than `most` of them, in fracture->list; their area at rest is added up. Returns
+ * their count, or UINT32_MAX when there are more. */
 static uint32_t piece_beside(struct sim_balloon *b, uint32_t triangle, int side, uint32_t most, double *area)
 {
     const uint32_t first = b->triangle_begin, barrier = b->topology->neighbour[triangle - first][side];

@@ -1,5 +1,6 @@
 /*
- * What all tables of prices have in common, those of accuracy and those of effects: where they go, the bar beside the work, and the picture.
+ * What all tables of prices have in common, those of accuracy and those of effects: where they go, the bar
+ * beside the work, and the picture.
  */
 #ifndef SIM_PRICE_FILE_H
 #define SIM_PRICE_FILE_H
@@ -22,14 +23,15 @@ struct price_kind {
     enum status (*draw)(const void *table, const char *scene, const char *path, struct error *err);
 };
 
-/* Measures a table; prints it on stdout and into path, whose name ends in .tsv, or beside the picture of it that path is (.png, .svg). What
- * cannot be written or drawn is found out before the work. Errors: STATUS_FILE; STATUS_RESOURCE where a picture is wanted and gnuplot is
- * missing; STATUS_NO_MEMORY; STATUS_INTERRUPTED and STATUS_TERMINATED after a signal; what measure says. */
+/* Measures a table; prints it on stdout and into path, whose name ends in .tsv, or beside the picture of it
+ * that path is (.png, .svg). What cannot be written or drawn is found out before the work. Errors:
+ * STATUS_FILE; STATUS_RESOURCE where a picture is wanted and gnuplot is missing; STATUS_NO_MEMORY;
+ * STATUS_INTERRUPTED and STATUS_TERMINATED after a signal; what measure says. */
 enum status price_make(const struct price_kind *kind, const struct scene *scene, const struct mesh *meshes,
                        const char *path, struct error *err);
 
-/* For whoever measures: shows the share that is done; false after a signal. `context`: where a part of the work lies in the whole
- * (struct price_part), or NULL: it is the whole. */
+/* For whoever measures: shows the share that is done; false after a signal. `context`: where a part of the
+ * work lies in the whole (struct price_part), or NULL: it is the whole. */
 struct price_part {
     double from, to;
 };

@@ -5,10 +5,12 @@
 #include <stdlib.h>
 #include <time.h>
 
-/* More samples are not taken where lists would need longer than this for a picture, by what they need for one sample. */
+/* More samples are not taken where lists would need longer than this for a picture, by what
+ * they need for one sample. */
 static const double longest_picture = 8;
 
-/* A picture is drawn again, up to so many times, until that much has been spent: the first time programs are compiled for it. */
+/* A picture is drawn again, up to so many times, until that much has been spent: the first time
+ * programs are compiled for it. */
 enum { TIMES = 5 };
 static const double enough = 0.4;
 

@@ -1,10 +1,11 @@
 /*
- * What the order of translucent triangles and samples cost, in one picture of the user's own scene: the program layer's bridge from
- * prices to render.
+ * What the order of translucent triangles and samples cost, in one picture of the user's own scene: the
+ * program layer's bridge from prices to render.
  *
- * The state is that at a given time; the picture is the film's, with both eyes where the scene has them. The reference has the exact order
- * of each pixel's layers, by lists, and the most samples: nothing here is nearer to the picture without pixels. Its own outlines
- * are wrong by about as much as those of one sample less are off from it.
+ * The state is that at a given time; the picture is the film's, with both eyes where the scene has them.
+ * The reference has the exact order of each pixel's layers, by lists, and the most samples: nothing here
+ * is nearer to the picture without pixels. Its own outlines are wrong by about as much as those of one
+ * sample less are off from it.
  */
 #ifndef SIM_PRICE_PICTURE_H
 #define SIM_PRICE_PICTURE_H
@@ -22,8 +23,8 @@ struct price_picture {
 };
 
 struct price_pictures {
-    struct price_picture
-        rows[PRICE_PICTURES_MAX]; /* order by order, coarse to fine; the last is the reference */
+    /* Order by order, coarse to fine; the last is the reference. */
+    struct price_picture rows[PRICE_PICTURES_MAX];
     size_t count;
     double time;                /* s: of the state */
     int size[2];                /* pixels */
@@ -32,9 +33,9 @@ struct price_pictures {
     char reason[256];           /* why there are no rows, or "" */
 };
 
-/* Steps the scene until `time` by its own method, and draws. meshes as for sim_open(); options->go_on is asked before each
- * picture, options->seconds is not looked at. What cannot be stepped or drawn is no error but pictures->reason. Errors: STATUS_INTERRUPTED,
- * STATUS_NO_MEMORY. */
+/* Steps the scene until `time` by its own method, and draws. meshes as for sim_open(); options->go_on is
+ * asked before each picture, options->seconds is not looked at. What cannot be stepped or drawn is no error
+ * but pictures->reason. Errors: STATUS_INTERRUPTED, STATUS_NO_MEMORY. */
 enum status price_pictures_measure(const struct scene *scene, const struct mesh *meshes, double time,
                                    const struct accuracy_options *options, struct price_pictures *pictures,
                                    struct error *err);

@@ -112,7 +112,8 @@ static void add_methods(struct picture *p, const struct accuracy_table *table)
     }
 }
 
-/* Series and numbers of the pictures: a curve for each order. What is the reference has no error, and no place on the axis. */
+/* Series and numbers of the pictures: a curve for each order. What is the reference has no error,
+ * and no place on the axis. */
 struct pictures {
     double mean[PRICE_PICTURES_MAX], seconds[PRICE_PICTURES_MAX];
     char name[PRICE_PICTURES_MAX][16];

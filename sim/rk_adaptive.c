@@ -1,14 +1,15 @@
 /*
- * The embedded Runge-Kutta pair RK5(4)7M of Dormand & Prince, J. Comp. Appl. Math. 6 (1980) 19: steps of fifth order, an
- * estimate of their error, and states inside a step to fourth order without another force.
+ * The embedded Runge-Kutta pair RK5(4)7M of Dormand & Prince, J. Comp. Appl. Math. 6 (1980) 19: steps of
+ * fifth order, an estimate of their error, and states inside a step to fourth order without another force.
  *
- * A step is accepted when the estimate is within the tolerance: RMS over the points, of positions in mean radii and of
- * velocities in mean radii times the rate at which the balloon breathes (weights.h). The next step's length follows from
- * this error and the last one (a PI controller: Gustafsson, ACM TOMS 17 (1991) 533; constants of Hairer, Norsett & Wanner,
- * Solving Ordinary Differential Equations I, II.4 and IV.2). Scalars are integrated along and do not choose.
+ * A step is accepted when the estimate is within the tolerance: RMS over the points, of positions in mean
+ * radii and of velocities in mean radii times the rate at which the balloon breathes (weights.h). The next
+ * step's length follows from this error and the last one (a PI controller: Gustafsson, ACM TOMS 17 (1991)
+ * 533; constants of Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, II.4 and IV.2).
+ * Scalars are integrated along and do not choose.
  *
- * The last stage of a step is the first of the next. It is evaluated anew where that may not hold: after something broke,
- * and when the state is not the one that the last step left.
+ * The last stage of a step is the first of the next. It is evaluated anew where that may not hold: after
+ * something broke, and when the state is not the one that the last step left.
  */
 #include "sim/methods.h"
 #include "sim/runge_kutta.h"
@@ -156,8 +157,8 @@ static enum status advance(struct sim *sim, double longest, struct error *err)
     return STATUS_OK;
 }
 
-/* With s from 0 to 1 over the step, y(s) = y_0 + dt sum w_i(s) k_i: Shampine's interpolant in the form of Hairer, Norsett &
- * Wanner II.6, its differences written out for each k_i. */
+/* With s from 0 to 1 over the step, y(s) = y_0 + dt sum w_i(s) k_i: Shampine's interpolant in the form of
+ * Hairer, Norsett & Wanner II.6, its differences written out for each k_i. */
 static void look(struct sim *sim, double back)
 {
     const struct adaptive *adaptive = sim->method;

@@ -1,15 +1,16 @@
 /*
- * The symplectic Runge-Kutta-Nystroem method SRKN_6^b of Blanes & Moan, J. Comp. Appl. Math. 142 (2002) 313, table 3:
- * seven kicks and six drifts in a symmetric row, fourth order with a small constant. Without damping each kick takes one force,
- * and the last is the next step's first: six a step.
+ * The symplectic Runge-Kutta-Nystroem method SRKN_6^b of Blanes & Moan, J. Comp. Appl. Math. 142 (2002) 313,
+ * table 3: seven kicks and six drifts in a symmetric row, fourth order with a small constant. Without damping
+ * each kick takes one force, and the last is the next step's first: six a step.
  *
  *     kick   v += b dt f(x)/m        b1 a1 b2 a2 b3 a3 b4 a3 b3 a2 b2 a1 b1
  *     drift  x += a dt v
  *
- * Damping is split off from the motion: while x stands still in a kick, v' = f(x, v)/m is a small problem of its own, solved
- * by the classic Runge-Kutta method to the same order, four forces a kick. A symmetric row that meets the two conditions of
- * third order has fourth order for any two flows that follow each other, so the order stays 4 with damping, at 28 forces a
- * step: rk4 is then the cheaper one, and nothing is left to be symplectic about.
+ * Damping is split off from the motion: while x stands still in a kick, v' = f(x, v)/m is a small problem
+ * of its own, solved by the classic Runge-Kutta method to the same order, four forces a kick. A symmetric
+ * row that meets the two conditions of third order has fourth order for any two flows that follow each
+ * other, so the order stays 4 with damping, at 28 forces a step: rk4 is then the cheaper one, and nothing
+ * is left to be symplectic about.
  *
  * Scalars flow during the kicks, as velocities do.
  */
@@ -57,8 +58,8 @@ static void evaluate(struct sim *sim)
     vector_over_mass(sim, sim->scratch[0], sim->force);
 }
 
-/* The acceleration is constant while x is, and rates that are linear in v are had by that of the middle. Velocities must not
- * differ by a bit for it, whether anything is integrated along or not. */
+/* The acceleration is constant while x is, and rates that are linear in v are had by that of the middle.
+ * Velocities must not differ by a bit for it, whether anything is integrated along or not. */
 static void kick_scalars(struct sim *sim, double dt)
 {
     vector_copy(sim, sim->scratch[1], sim->velocity);
@@ -140,8 +141,8 @@ static enum status advance(struct sim *sim, double dt, struct error *err)
     return STATUS_OK;
 }
 
-/* Limits of the whole row, found numerically: the half trace of its matrix leaves [-1, 1] at 3.1635 for an oscillator, and the
- * product of the kicks' decays leaves it at 8.58. */
+/* Limits of the whole row, found numerically: the half trace of its matrix leaves [-1, 1] at 3.1635 for an
+ * oscillator, and the product of the kicks' decays leaves it at 8.58. */
 const struct integrator integrator_rkn4 = {.name = "rkn4",
                                            .order = 4,
                                            .flags = INTEGRATOR_SYMPLECTIC,

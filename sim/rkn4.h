@@ -1,4 +1,5 @@
-/* The coefficients of rkn4, in the order of the step: drift 0 (of nothing), kick 0, drift 1, kick 1, ... (rkn4.c). */
+/* The coefficients of rkn4, in the order of the step: drift 0 (of nothing), kick 0, drift
+ * 1, kick 1, ... (rkn4.c). */
 #ifndef SIM_RKN4_H
 #define SIM_RKN4_H
 

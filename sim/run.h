@@ -1,4 +1,5 @@
-/* A run from the first state to the last: steps, pictures, the log, the skin that is left, and what is said at the end. */
+/* A run from the first state to the last: steps, pictures, the log, the skin that is left, and
+ * what is said at the end. */
 #ifndef SIM_RUN_H
 #define SIM_RUN_H
 
@@ -6,8 +7,9 @@
 #include "sim/options.h"
 #include "sim/sim.h"
 
-/* Does what the options ask for with an open sim, and what the estimate (NULL: none) says about it; the summary goes to stdout.
- * Errors: all of the step's and the outputs', and STATUS_INTERRUPTED or STATUS_TERMINATED after a signal. */
+/* Does what the options ask for with an open sim, and what the estimate (NULL: none) says about it; the
+ * summary goes to stdout. Errors: all of the step's and the outputs', and STATUS_INTERRUPTED or
+ * STATUS_TERMINATED after a signal. */
 enum status run(const struct options *options, struct sim *sim, struct estimate *estimate, struct error *err);
 
 #endif

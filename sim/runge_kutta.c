@@ -65,7 +65,8 @@ static enum status rk4(struct sim *sim, double dt, struct error *err)
     return STATUS_OK;
 }
 
-/* The limits are where |1 + z + z^2/2 + z^3/6 + z^4/24| = 1 on the imaginary and the negative real axis: 2 sqrt 2, 2.785. */
+/* The limits are where |1 + z + z^2/2 + z^3/6 + z^4/24| = 1 on the imaginary and the negative real
+ * axis: 2 sqrt 2, 2.785. */
 const struct integrator integrator_rk4 = {.name = "rk4",
                                           .order = 4,
                                           .evaluations = 4,

@@ -1,5 +1,6 @@
 /*
- * Explicit Runge-Kutta methods on positions, velocities and scalars at once: what rk4 and rk-adaptive share. Stage i is
+ * Explicit Runge-Kutta methods on positions, velocities and scalars at once: what rk4 and
+ * rk-adaptive share. Stage i is
  *
  *     y_i = y_0 + dt (a[i][0] k_0 + ... + a[i][i-1] k_{i-1}),   k_i = (v, f/m, scalar_rate) at y_i
  *
@@ -8,7 +9,8 @@
  *         runge_kutta_stage(sim, t, i, dt);             the state becomes y_i, k_i is kept
  *     runge_kutta_state(sim, t, t->weights, dt);        y_0 + dt sum weights[i] k_i
  *
- * In sim->scratch the k_i of positions come first, then those of velocities, then y_0: RUNGE_KUTTA_VECTORS(stages).
+ * In sim->scratch the k_i of positions come first, then those of velocities, then y_0:
+ * RUNGE_KUTTA_VECTORS(stages).
  */
 #ifndef SIM_RUNGE_KUTTA_H
 #define SIM_RUNGE_KUTTA_H

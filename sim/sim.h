@@ -8,8 +8,9 @@
  *         if (sim_step(&sim, err)) ...                 never allocates; STATUS_DIVERGED names the point
  *     sim_clear(&sim);
  *
- * step.c is the method, and forces.c its formulas; open.c and parts.c build the tables that they work on; integrators.c and
- * effects.c list what can be plugged in; look.c shows moments inside a step; state.c says what the future depends on; measure.c and material.c look at the result.
+ * step.c is the method, and forces.c its formulas; open.c and parts.c build the tables that they work on;
+ * integrators.c and effects.c list what can be plugged in; look.c shows moments inside a step; state.c says
+ * what the future depends on; measure.c and material.c look at the result.
  */
 #ifndef SIM_SIM_H
 #define SIM_SIM_H
@@ -63,8 +64,8 @@ struct sim_balloon {
     double centre[3];               /* of its points, at rest */
     double radius;                  /* mean distance of its points from that centre, at rest */
     double mean_rest_length;        /* of its edges */
-    bool
-        own_thresholds; /* an edge's threshold is over its own rest length: the settings' is that of an edge of length 1 */
+    /* An edge's threshold is over its own rest length: the settings' is that of an edge of length 1. */
+    bool own_thresholds;
     double breathing_rate;    /* 1/s, for errors of speeds (weights.h) */
     struct sim_settings *now; /* one of sim->settings */
     bool by_area;             /* pressure acts on areas, not on each point alike */
@@ -98,7 +99,8 @@ static inline double sim_point_pressure(const struct sim_balloon *balloon)
     return balloon->by_area ? 0 : balloon->now->pressure;
 }
 
-/* What an outsider may want to know as it happens, such as an effect that wakes: kept until somebody reads it. */
+/* What an outsider may want to know as it happens, such as an effect that wakes: kept
+ * until somebody reads it. */
 struct sim_news {
     double time;
     const char *effect, *text; /* "gas", "the neck is open" */
@@ -119,7 +121,8 @@ struct sim_ledger {
     } account;
 };
 
-/* What the last step began with, and what is put back after a look inside it; empty where nobody can look (look.c). */
+/* What the last step began with, and what is put back after a look inside it; empty where
+ * nobody can look (look.c). */
 struct sim_past {
     unsigned char *edge_active, *triangle_active; /* [edge_count], [triangle_count] */
     double (*position)[4], (*velocity)[4];        /* [point_count] */
@@ -130,10 +133,11 @@ struct sim_past {
 };
 
 struct sim {
-    /* Points: the paper's table 1. Its acceleration is force / mass. Rows are x, y, z and 0, aligned to 32 bytes. */
+    /* Points: the paper's table 1. Its acceleration is force / mass. Rows are x, y, z and
+     * 0, aligned to 32 bytes. */
     uint32_t point_count;
-    /* [point_count] unit, outward; 0 where no skin is left; by the last sim_forces(). Of balloons that are pressed by area: the sum of
-     * twice the area vectors of the point's triangles. */
+    /* [point_count] unit, outward; 0 where no skin is left; by the last sim_forces(). Of balloons that are
+     * pressed by area: the sum of twice the area vectors of the point's triangles. */
     double (*normal)[4];
     double (*position)[4]; /* [point_count] length */
     double (*velocity)[4]; /* [point_count] length/s */
@@ -149,8 +153,8 @@ struct sim {
     double *current_spring_const; /* [edge_count] init_spring_const x the balloon's spring_factor */
     unsigned char *edge_active;   /* [edge_count] */
 
-    /* Triangles: table 3, an array instead of a linked list, in the order of their lowest points. Opacity and shininess are sim_material()'s, for frames
-     * that are drawn. */
+    /* Triangles: table 3, an array instead of a linked list, in the order of their lowest points. Opacity and
+     * shininess are sim_material()'s, for frames that are drawn. */
     uint32_t triangle_count;
     uint32_t (*triangle_point)[3];  /* [triangle_count] counter-clockwise from outside */
     uint32_t (*triangle_edge)[3];   /* [triangle_count] */
@@ -185,11 +189,12 @@ struct sim {
     double (*scratch[SIM_VECTORS_MAX])[4];   /* [point_count] the integrator's, as many as it asked for */
     double *scalar_scratch[SIM_VECTORS_MAX]; /* [scalar_count] likewise, one to each of scratch */
     double *block_sum;                       /* [point_count / VECTOR_BLOCK + 1] for vector_sum() */
-    struct effect_hook
-        *hooks[EFFECT_PHASES]; /* [hook_count[phase]] what this scene calls for, nothing else */
+    /* [hook_count[phase]] what this scene calls for, nothing else. */
+    struct effect_hook *hooks[EFFECT_PHASES];
     size_t hook_count[EFFECT_PHASES];
 
-    /* In fixed steps the time is time_base + steps_since x step, so that it does not drift; else the sum of the steps. */
+    /* In fixed steps the time is time_base + steps_since x step, so that it does not drift;
+     * else the sum of the steps. */
     double time;       /* s */
     double whole_step; /* s, as the schedule has it now; the longest one where a method chooses for itself */
     uint32_t substeps; /* in which the guard splits it (guard.h) */
@@ -201,11 +206,12 @@ struct sim {
     size_t next_change;   /* first entry of the schedule that is still to come */
     bool edges_broke;     /* since the triangles were last asked */
     uint32_t broken;      /* edges that have let go, in all */
-    /* Since the last step an edge let go, the schedule changed something, forces jumped: methods that remember begin anew. */
+    /* Since the last step an edge let go, the schedule changed something, forces jumped: methods
+     * that remember begin anew. */
     bool changed;
 
-    /* Asked within what may be long in a step, the trials of auto; false ends it with STATUS_INTERRUPTED, as it was before. NULL: nobody
-     * asks. */
+    /* Asked within what may be long in a step, the trials of auto; false ends it with STATUS_INTERRUPTED, as
+     * it was before. NULL: nobody asks. */
     bool (*goes_on)(void);
 
     /* What a method that chooses its own steps goes by and leaves. */
@@ -213,8 +219,8 @@ struct sim {
     double taken;         /* s: how far the last advance() moved; it comes in as the longest that it may be */
     struct sim_past past; /* for sim_look() */
     struct guard *guard;
-    double (*before)
-        [4]; /* [point_count] places when the step began; NULL: nothing that the scene calls for asks for them */
+    /* [point_count] places when the step began; NULL: nothing that the scene calls for asks for them. */
+    double (*before)[4];
     struct obstacles *obstacles; /* what stands in the way (obstacles.h); NULL: nothing */
     struct needles *needles;     /* how near they are (effect_needles.c); NULL: there are none */
     struct contact *contact;     /* what keeps skins apart (contact.h); NULL: nothing */
@@ -222,8 +228,8 @@ struct sim {
     struct air_drag *drag; /* what the air's resistance remembers (effect_drag.c); NULL: there is none */
     struct hand *hand;     /* that pulls at it (live_hand.h); NULL: none */
     uint64_t fingerprint;  /* checkpoint_fingerprint() before anything was cut; 0: nothing can be */
-    uint64_t
-        evaluations;   /* of sim_forces() since sim_open(), also of those for a look; nothing depends on it */
+    /* Of sim_forces() since sim_open(), also of those for a look; nothing depends on it. */
+    uint64_t evaluations;
     uint64_t products; /* of sim_force_product(), likewise */
 
     struct sim_ledger ledger;
@@ -236,32 +242,34 @@ struct sim {
     size_t bytes;       /* of all the arrays here */
 };
 
-/* Reads the mesh of each balloon of a checked scene, repairs and connects it. meshes and reports have balloon_count
- * elements, empty; on failure they may be partly filled. Refuses (STATUS_INPUT, with the file's name) what cannot be
- * inflated: meshes that are open, no surface, or not consistently wound. An inside-out mesh is turned. Points and
- * triangles are renumbered so that neighbours are near in memory (mesh_order). */
+/* Reads the mesh of each balloon of a checked scene, repairs and connects it. meshes and reports have
+ * balloon_count elements, empty; on failure they may be partly filled. Refuses (STATUS_INPUT, with the file's
+ * name) what cannot be inflated: meshes that are open, no surface, or not consistently wound. An inside-out
+ * mesh is turned. Points and triangles are renumbered so that neighbours are near in memory (mesh_order). */
 enum status sim_load_meshes(const struct scene *scene, struct mesh *meshes, struct mesh_report *reports,
                             struct error *err);
 
-/* Builds the tables for a checked scene; meshes[i] is balloon i's, connected (common/mesh.h). `workers` threads work on a
- * step (0: as many as the machine has, but one for a small balloon); the results do not depend on it. Errors: STATUS_NO_MEMORY, STATUS_RESOURCE without
- * threads, STATUS_RANGE when all balloons together have more than 2^32 - 2 edges. On failure *sim is empty. */
+/* Builds the tables for a checked scene; meshes[i] is balloon i's, connected (common/mesh.h). `workers`
+ * threads work on a step (0: as many as the machine has, but one for a small balloon); the results do not
+ * depend on it. Errors: STATUS_NO_MEMORY, STATUS_RESOURCE without threads, STATUS_RANGE when all balloons
+ * together have more than 2^32 - 2 edges. On failure *sim is empty. */
 enum status sim_open(struct sim *sim, const struct scene *scene, const struct mesh *meshes, unsigned workers,
                      struct error *err);
 void sim_clear(struct sim *sim);
 
-/* One time step (step.c). Errors: STATUS_DIVERGED with point, time and what is likely to blame; the state is left as it
- * is, for a look; STATUS_INTERRUPTED by goes_on, the state as before the step. */
+/* One time step (step.c). Errors: STATUS_DIVERGED with point, time and what is likely to blame; the state is
+ * left as it is, for a look; STATUS_INTERRUPTED by goes_on, the state as before the step. */
 enum status sim_step(struct sim *sim, struct error *err);
 
 /* Forces on every point at the current positions and velocities; for the integrators. */
 void sim_forces(struct sim *sim);
 
-/* Room for `count` more scalars, all 0; *first becomes the number of the first. Between sim_open() and the first step, or by an
- * effect's hook as the sim is opened. Error: STATUS_NO_MEMORY. */
+/* Room for `count` more scalars, all 0; *first becomes the number of the first. Between sim_open() and the
+ * first step, or by an effect's hook as the sim is opened. Error: STATUS_NO_MEMORY. */
 enum status sim_add_scalars(struct sim *sim, uint32_t count, uint32_t *first, struct error *err);
 
-/* Zeroed memory on a line of the cache, free()d by whoever asked, which adds to sim->bytes. NULL: there is not enough. */
+/* Zeroed memory on a line of the cache, free()d by whoever asked, which adds to sim->bytes.
+ * NULL: there is not enough. */
 void *sim_table(struct sim *sim, size_t count, size_t size);
 
 /* Makes sim->before, if there is none: for an effect's open. Error: STATUS_NO_MEMORY. */
@@ -294,14 +302,16 @@ static inline void sim_break_edge(struct sim *sim, uint32_t edge)
     sim->broken++;
 }
 
-/* Lists all that the future depends on (state.c): equal blocks, equal futures. Returns how many there are. The addresses
- * stay until sim_clear(). */
+/* Lists all that the future depends on (state.c): equal blocks, equal futures. Returns how many there are.
+ * The addresses stay until sim_clear(). */
 size_t sim_blocks(struct sim *sim, struct sim_block blocks[SIM_BLOCKS_MAX]);
 
-/* What follows from blocks that were put back (sim_blocks()): false, and nothing done, where they are no state of a torn skin. */
+/* What follows from blocks that were put back (sim_blocks()): false, and nothing done, where they are
+ * no state of a torn skin. */
 bool sim_restored(struct sim *sim);
 
-/* What a needle's point does to a triangle that it meets at a place: a slit, or in the paper's skin its edges let go. */
+/* What a needle's point does to a triangle that it meets at a place: a slit, or in the paper's
+ * skin its edges let go. */
 void sim_prick(struct sim *sim, uint32_t triangle, const double place[3]);
 
 /* How many of the scalars are the state's own: those after them only record, and are not hashed. */
@@ -320,8 +330,8 @@ struct sim_measures {
     uint32_t pieces;     /* of active triangles, joined where they share an edge */
     uint32_t crack_tips; /* that may still run */
     double torn_length;  /* of all cuts, at rest */
-    double
-        crack_energy; /* what their toughness asks for: toughness x mean radius x shear modulus x thickness x torn length */
+    /* What their toughness asks for: toughness x mean radius x shear modulus x thickness x torn length. */
+    double crack_energy;
     double hole_area; /* of what holds gas */
 };
 struct sim_measures sim_measure(struct sim *sim);
@@ -329,8 +339,8 @@ struct sim_measures sim_measure(struct sim *sim);
 /* The skin that is left, as a mesh of its own. */
 enum status sim_skin(const struct sim *sim, struct mesh *mesh, struct error *err);
 
-/* Opacity and highlight exponent of each triangle from its stretch (material.c). Arrays of triangle_count, the
- * caller's. */
+/* Opacity and highlight exponent of each triangle from its stretch (material.c). Arrays of
+ * triangle_count, the caller's. */
 void sim_material(const struct sim *sim, float *opacity, float *shininess);
 
 /* A fingerprint of the whole state: equal states, equal numbers. */
@@ -344,25 +354,29 @@ static inline bool sim_goes_on(const struct sim *sim)
 /* Applies one entry of the schedule (schedule.c). */
 void sim_change(struct sim *sim, const struct scene_schedule *entry);
 
-/* STATUS_DIVERGED, with the first point that is nowhere or the one that moves most, its longest edge, the time, the kinetic energy
- * and what is likely to blame (diverged.c). */
+/* STATUS_DIVERGED, with the first point that is nowhere or the one that moves most, its longest edge, the
+ * time, the kinetic energy and what is likely to blame (diverged.c). */
 enum status sim_diverged(struct sim *sim, double energy, struct error *err);
 
-/* Whether scene.time.end has been reached: exactly where a method chooses its own steps, else to the nearest step. */
+/* Whether scene.time.end has been reached: exactly where a method chooses its own steps,
+ * else to the nearest step. */
 bool sim_at_end(const struct sim *sim);
 
-/* Shows the state at `time`, later than before the last step and no later than now, to whoever draws or measures; sim_look_end()
- * puts everything back, to the bit. Where the method cannot say what was between two steps, the state stays as it is now. Of
- * edges and triangles those are active that were so during the step: what let go did so at its end. */
+/* Shows the state at `time`, later than before the last step and no later than now, to whoever draws or
+ * measures; sim_look_end() puts everything back, to the bit. Where the method cannot say what was between two
+ * steps, the state stays as it is now. Of edges and triangles those are active that were so during the step:
+ * what let go did so at its end. */
 void sim_look(struct sim *sim, double time);
 void sim_look_end(struct sim *sim);
 
-/* Spring constants in proportion to the cotangents of the two angles across an edge at rest, so that an irregular mesh is stretched evenly by
- * an even pull, as a uniform sheet is (Pinkall and Polthier, Experimental Mathematics 2, 1993): the forces at a point are
- * sum k (L - 1) r u = (L - 1) sum k (x_q - x_p), which are 0 for these k in any flat mesh. 0 where the sum is negative. */
+/* Spring constants in proportion to the cotangents of the two angles across an edge at rest, so that an
+ * irregular mesh is stretched evenly by an even pull, as a uniform sheet is (Pinkall and Polthier,
+ * Experimental Mathematics 2, 1993): the forces at a point are sum k (L - 1) r u = (L - 1) sum k (x_q - x_p),
+ * which are 0 for these k in any flat mesh. 0 where the sum is negative. */
 void springs_by_cotangent(struct sim *sim, const struct sim_balloon *balloon);
 
-/* Makes sim->past where the method can look into its steps (STATUS_NO_MEMORY); remembers how a step begins (look.c). */
+/* Makes sim->past where the method can look into its steps (STATUS_NO_MEMORY); remembers how
+ * a step begins (look.c). */
 enum status look_open(struct sim *sim, struct error *err);
 void look_close(struct sim *sim);
 void look_remember(struct sim *sim);

@@ -7,9 +7,10 @@
  *     if (mesh_save_values(&skin.mesh, skin.values, SKIN_VALUES, path, err)) ...
  *     skin_mesh_clear(&skin);
  *
- * Either the points that carry skin, as they are joined then; or each triangle with three points of its own, 3 t + k for corner k of
- * triangle t: so points are numbered alike at all times, and what will be torn is apart from the start, for caches of motion that
- * know places only. Of those a triangle that is gone is drawn together to its middle.
+ * Either the points that carry skin, as they are joined then; or each triangle with three points of its own,
+ * 3 t + k for corner k of triangle t: so points are numbered alike at all times, and what will be torn is
+ * apart from the start, for caches of motion that know places only. Of those a triangle that is gone is drawn
+ * together to its middle.
  */
 #ifndef SIM_SKIN_MESH_H
 #define SIM_SKIN_MESH_H
@@ -21,8 +22,9 @@ enum { SKIN_VALUES = 3 };
 struct skin_mesh {
     struct mesh mesh;                      /* positions and triangles */
     struct mesh_value values[SKIN_VALUES]; /* stretch and opacity, and piece: these */
-    /* [mesh.point_count] area over that at rest, and opacity, of the triangles around the point; the number of its piece (piece_table.h),
-     * of the last one where two of the paper's touch; 0, 0 and -1 where a triangle is gone. */
+    /* [mesh.point_count] area over that at rest, and opacity, of the triangles around the point; the
+     * number of its piece (piece_table.h), of the last one where two of the paper's touch; 0, 0 and -1
+     * where a triangle is gone. */
     float *stretch, *opacity;
     int32_t *piece;
     struct sim *sim;
@@ -34,7 +36,8 @@ struct skin_mesh {
     int32_t *piece_of;             /* [sim->point_count] */
 };
 
-/* `sim` is borrowed. apart: each triangle has points of its own. Errors: STATUS_NO_MEMORY, STATUS_RANGE where there are too many; then *skin is empty. */
+/* `sim` is borrowed. apart: each triangle has points of its own. Errors: STATUS_NO_MEMORY, STATUS_RANGE where
+ * there are too many; then *skin is empty. */
 enum status skin_mesh_init(struct skin_mesh *skin, struct sim *sim, bool apart, struct error *err);
 void skin_mesh_clear(struct skin_mesh *skin);
 

@@ -6,8 +6,8 @@
 
 #include <stdlib.h>
 
-/* How far below the middle the floor lies, in radii of the ball around all points at rest: legs reach further down than the first, and swollen
- * skin about to the second. */
+/* How far below the middle the floor lies, in radii of the ball around all points at rest: legs reach further
+ * down than the first, and swollen skin about to the second. */
 static const double floor_least = 0.6, floor_most = 1.8;
 
 /* IEC 61966-2-1. */

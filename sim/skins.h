@@ -22,15 +22,17 @@ void skins_clear(struct skins *skins);
 /* Normals, opacity, shininess, stretch and bottom of the state as it is: before each picture. */
 void skins_update(struct skins *skins);
 
-/* What the scene says of the picture but its camera: size, stereo, style, order, samples. Eyes that are separate in files are side by
- * side where there is one picture. */
+/* What the scene says of the picture but its camera: size, stereo, style, order, samples. Eyes that are
+ * separate in files are side by side where there is one picture. */
 void skins_view(const struct scene_view *scene, struct render_view *view);
 
-/* All of a film's picture: that, and the scene's camera on the ball around all points at rest (skins_ball() before the first step), smooth outlines. */
+/* All of a film's picture: that, and the scene's camera on the ball around all points at rest (skins_ball()
+ * before the first step), smooth outlines. */
 void skins_camera(const struct sim *sim, const double centre[3], double radius, struct render_view *view);
 
-/* The picture's floor, that shadows lie on: the scene's ground where that is level; else skins stand on it as they are, and it sinks as they
- * swell, but it does not follow what flies away. `ball`: around all points at rest, centre and radius. After skins_update(). */
+/* The picture's floor, that shadows lie on: the scene's ground where that is level; else skins stand on it as
+ * they are, and it sinks as they swell, but it does not follow what flies away. `ball`: around all points at
+ * rest, centre and radius. After skins_update(). */
 void skins_floor(const struct skins *skins, const double ball[4], struct render_view *view);
 
 /* The ball around all points as they are; returns its radius. */

@@ -129,8 +129,8 @@ static void cut_spoke(struct sim *sim, struct sim_balloon *b, const struct ring 
     mark(sim, b, end);
 }
 
-/* `from` is the tip that got there, NULL for a new crack. It rests as long as it takes to go there from when it was last ready, but for the
- * step that it had to wait for. */
+/* `from` is the tip that got there, NULL for a new crack. It rests as long as it takes to go there from when
+ * it was last ready, but for the step that it had to wait for. */
 static void add_tip(struct sim *sim, struct sim_balloon *b, const struct crack_tip *from, uint32_t start,
                     uint32_t point)
 {
@@ -164,7 +164,8 @@ void crack_run_along(struct sim *sim, struct sim_balloon *b, const struct ring *
         add_tip(sim, b, tip, point, end);
 }
 
-/* The spoke that goes most nearly along a direction at rest, of those within a right angle of it; -1: none may be cut. */
+/* The spoke that goes most nearly along a direction at rest, of those within a right angle of
+ * it; -1: none may be cut. */
 static int aligned_spoke(struct sim *sim, struct sim_balloon *b, uint32_t point, const struct ring *ring,
                          const double direction[3])
 {

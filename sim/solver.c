@@ -44,8 +44,8 @@ void solver_close(struct solver *solver)
     *solver = (struct solver){0};
 }
 
-/* By its adjugate. A block that has no inverse in numbers becomes the unit matrix over the mass: any preconditioner is right,
- * only not as fast. */
+/* By its adjugate. A block that has no inverse in numbers becomes the unit matrix over the mass: any
+ * preconditioner is right, only not as fast. */
 static void invert(double block[3][4], double mass)
 {
     double c[3][3];
@@ -67,8 +67,8 @@ struct group_job {
     double (*x)[4], (*y)[4];
 };
 
-/* Edges as the preconditioner sees them: y += B x, where -B is the system's block between an edge's ends, either way, without
- * pressure's share. */
+/* Edges as the preconditioner sees them: y += B x, where -B is the system's block between an edge's ends,
+ * either way, without pressure's share. */
 static inline void add_coupling(const struct solver *s, const double edge[8], const double x[4], double y[4])
 {
     const double *u = edge, *g = edge + 4, t = s->a * edge[3];
@@ -84,7 +84,8 @@ static inline void multiply(const double block[3][4], const double x[4], double 
         y[i] = block[i][0] * x[0] + block[i][1] * x[1] + block[i][2] * x[2];
 }
 
-/* What eliminating an edge's lower point does to the block of the upper one: block -= B inverse B, column by column. */
+/* What eliminating an edge's lower point does to the block of the upper one: block -= B
+ * inverse B, column by column. */
 static void eliminate(const struct solver *s, const double edge[8], const double inverse[3][4],
                       double block[3][4])
 {
@@ -213,8 +214,8 @@ double solver_size(struct sim *sim, struct solver *solver, double (*x)[4])
     return sqrt(vector_dot(sim, y, y) / sim->point_count);
 }
 
-/* One iteration: a step along the direction, and one that makes the residual least along its own image. rho is the residual
- * . shadow, before and after; returns the residual's square. */
+/* One iteration: a step along the direction, and one that makes the residual least along its own image. rho
+ * is the residual . shadow, before and after; returns the residual's square. */
 static double iterate(struct sim *sim, struct solver *solver, double (*x)[4], double *rho)
 {
     double(**row)[4] = solver->rows;

@@ -1,13 +1,15 @@
 /*
- * Solves (M - a K - b D) x = rhs, M the masses, K and D the derivatives of the forces (jacobian.h): the linear system of
- * every implicit method. K is not symmetric where there is pressure, nor where dampers turn: so BiCGSTAB (van der Vorst,
- * SIAM J. Sci. Stat. Comput. 13 (1992) 631), which keeps six vectors whatever it takes, preconditioned by an incomplete
- * factorisation (D + L) D^-1 (D + U): L and U the 3x3 blocks of the system's springs and dampers off the diagonal, below and
- * above, D such that the product has the system's diagonal (DILU: Pommerell, 1992). What one stiff spring does to its two
- * points is in it to the full. Points are taken in groups of SOLVER_GROUP, as if nothing went between two groups: these are what
- * threads share out. (Smaller ones cost more iterations than threads gain: with stiffness contrasts up to fifty times as
- * many.) Equal to the bit for any number of threads. At equal error (tests/bench/bench_linear.c) GMRES takes .7 to 1.5 of its time, exact
- * factors by CHOLMOD 4 times and far more, conjugate gradients .7 at best, and only where there are neither pressure nor dampers.
+ * Solves (M - a K - b D) x = rhs, M the masses, K and D the derivatives of the forces (jacobian.h): the
+ * linear system of every implicit method. K is not symmetric where there is pressure, nor where dampers turn:
+ * so BiCGSTAB (van der Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631), which keeps six vectors whatever it
+ * takes, preconditioned by an incomplete factorisation (D + L) D^-1 (D + U): L and U the 3x3 blocks of the
+ * system's springs and dampers off the diagonal, below and above, D such that the product has the system's
+ * diagonal (DILU: Pommerell, 1992). What one stiff spring does to its two points is in it to the full. Points
+ * are taken in groups of SOLVER_GROUP, as if nothing went between two groups: these are what threads share
+ * out. (Smaller ones cost more iterations than threads gain: with stiffness contrasts up to fifty times as
+ * many.) Equal to the bit for any number of threads. At equal error (tests/bench/bench_linear.c) GMRES takes
+ * .7 to 1.5 of its time, exact factors by CHOLMOD 4 times and far more, conjugate gradients .7 at best, and
+ * only where there are neither pressure nor dampers.
  *
  *     struct solver solver = {0};
  *     if (solver_open(sim, &solver, err)) ...              with sim_jacobian_open()
@@ -38,15 +40,17 @@ void solver_close(struct solver *solver);
 
 void solver_prepare(struct sim *sim, struct solver *solver, double a, double b);
 
-/* Sets x to a solution, starting from 0; rhs is kept, and neither is the other. It is one when the residual, after the
- * preconditioner (so that it is in the units of x, and a heavy point counts like a light one), is at most tolerance times
- * that of x = 0. False: it is not, after SOLVER_ITERATIONS_MAX iterations or a breakdown, and x is no use. */
+/* Sets x to a solution, starting from 0; rhs is kept, and neither is the other. It is one when the residual,
+ * after the preconditioner (so that it is in the units of x, and a heavy point counts like a light one), is
+ * at most tolerance times that of x = 0. False: it is not, after SOLVER_ITERATIONS_MAX iterations or a
+ * breakdown, and x is no use. */
 bool solver_solve(struct sim *sim, struct solver *solver, double (*rhs)[4], double (*x)[4], double tolerance);
 
 /* y = P x: a rough solution y for the right-hand side x, which may be the same rows. */
 void solver_precondition(struct sim *sim, struct solver *solver, double (*x)[4], double (*y)[4]);
 
-/* RMS over all points of what the preconditioner makes of x: about the solution's size for the right-hand side x. */
+/* RMS over all points of what the preconditioner makes of x: about the solution's size for
+ * the right-hand side x. */
 double solver_size(struct sim *sim, struct solver *solver, double (*x)[4]);
 
 #endif

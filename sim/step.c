@@ -1,6 +1,6 @@
 /*
- * One time step, as the paper's section 3.5 lists it: 1 points, 2 edges, 3 triangles, 4 pressure. The formulas are in
- * forces.c; part 5, drawing, is the renderer's.
+ * One time step, as the paper's section 3.5 lists it: 1 points, 2 edges, 3 triangles, 4 pressure. The
+ * formulas are in forces.c; part 5, drawing, is the renderer's.
  */
 #include "sim/guard.h"
 #include "sim/kernels.h"
@@ -28,8 +28,8 @@ static void skin_forces(struct sim *sim, const struct sim_part *part, const stru
         sim->kernels->edge_forces(sim, part, chunk);
 }
 
-/* Chunk by chunk, so that a large balloon goes through the caches once. Where air drags, the skin's forces are ahead of the triangles that reach
- * into them: kernels_skin_is_due(). */
+/* Chunk by chunk, so that a large balloon goes through the caches once. Where air drags, the skin's forces
+ * are ahead of the triangles that reach into them: kernels_skin_is_due(). */
 static void part_forces(struct sim *sim, const struct sim_part *part, void *move)
 {
     const struct sim_kernels *k = sim->kernels;

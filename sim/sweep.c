@@ -42,7 +42,8 @@ static double farthest(const struct sim *sim)
     return sqrt(moved);
 }
 
-/* An edge is no longer than it was before its two ends moved, and they by as much. The margin is for rounding. */
+/* An edge is no longer than it was before its two ends moved, and they by as much. The
+ * margin is for rounding. */
 bool sweep_saw_none_overlong(const struct sim *sim)
 {
     bool none = sim->swept;

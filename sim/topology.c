@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A hexagonal mesh of n points on a sphere of radius R has edges of R sqrt(8 pi/(sqrt 3 n)) = 3.8 R/sqrt n. */
+/* A hexagonal mesh of n points on a sphere of radius R has edges of R sqrt(8
+ * pi/(sqrt 3 n)) = 3.8 R/sqrt n. */
 uint32_t topology_room(const struct scene_fracture *fracture, uint32_t points)
 {
     if (!fracture->on || fracture->mode != SCENE_FRACTURE_TEAR)
@@ -263,8 +264,9 @@ static void replace(uint32_t *numbers, int count, uint32_t old, uint32_t new)
             numbers[i] = new;
 }
 
-/* By which masses are shared: a membrane's are its triangles' thirds; points with springs have theirs whatever the triangles, and a sliver's
- * share would be so light that its springs and dampers ask for the smallest of steps. */
+/* By which masses are shared: a membrane's are its triangles' thirds; points with springs have theirs
+ * whatever the triangles, and a sliver's share would be so light that its springs and dampers ask for
+ * the smallest of steps. */
 static double fan_weight(const struct sim *sim, const struct sim_balloon *b, struct fan fan,
                          bool against_clock)
 {
@@ -365,7 +367,8 @@ void topology_cut(struct sim *sim, struct sim_balloon *b, uint32_t triangle, int
     top->now.torn += sim->rest_length[edge];
     sim->triangle_edge[other][other_side] = double_edge(sim, b, edge);
     for (int end = 0; end < 2; end++) {
-        /* at the side's first corner the rest of the triangle's fan lies against the clock, at its second with it */
+        /* at the side's first corner the rest of the triangle's fan lies against the
+         * clock, at its second with it */
         const struct fan from = {triangle, (side + end) % 3};
         const uint32_t point = sim->triangle_point[triangle][from.corner];
         struct fan last = from;

@@ -1,20 +1,22 @@
 /*
- * How a balloon's triangles hang together, and how they come apart: the skin is cut along edges. Points are doubled where a cut
- * goes through them; no triangle is lost, nor any mass, area at rest or momentum.
+ * How a balloon's triangles hang together, and how they come apart: the skin is cut along edges. Points are
+ * doubled where a cut goes through them; no triangle is lost, nor any mass, area at rest or momentum.
  *
  *     balloon->topology                                    made by topology_open() where a scene tears (fracture)
  *     if (topology_can_cut(sim, balloon)) ...              room is left
  *     topology_cut(sim, balloon, triangle, side);          cut the edge from corner `side` to the next
  *
- * A cut of an edge inside the skin makes a slit, at an end that lies on a rim it splits the point: of the triangles around it those on the
- * neighbour's side get a new point, which takes its share of the mass, by area at rest of a membrane or else by number, and has the same place
- * and speed. No point is ever left with two fans of triangles. The neighbour gets an edge of its own; each of the two springs keeps
- * half the stiffness.
+ * A cut of an edge inside the skin makes a slit, at an end that lies on a rim it splits the point: of
+ * the triangles around it those on the neighbour's side get a new point, which takes its share of the
+ * mass, by area at rest of a membrane or else by number, and has the same place and speed. No point is
+ * ever left with two fans of triangles. The neighbour gets an edge of its own; each of the two springs
+ * keeps half the stiffness.
  *
- * How it fits parts and chunks (parts.c). Points and edges have room behind point_end and edge_end, which move up. What is new is worked on
- * by a part of its own, the balloon's last; edges and triangles keep their slots, and those that have got a new point join that part's
- * lists of what comes in. New edges come into the parts of their old points, ahead of all others. So what acts on a point is added up
- * in an order that does not depend on the parts, and a cut touches memory around it alone.
+ * How it fits parts and chunks (parts.c). Points and edges have room behind point_end and edge_end, which
+ * move up. What is new is worked on by a part of its own, the balloon's last; edges and triangles keep their
+ * slots, and those that have got a new point join that part's lists of what comes in. New edges come into the
+ * parts of their old points, ahead of all others. So what acts on a point is added up in an order that does
+ * not depend on the parts, and a cut touches memory around it alone.
  *
  * Numbers of triangles and sides are those of sim's tables.
  */
@@ -23,8 +25,8 @@
 
 #include "sim/sim.h"
 
-/* A balloon's connections. Arrays are owned; [triangles], [points] and [edges] are of the balloon's triangles, points
- * with room and edges with room, from its first on. */
+/* A balloon's connections. Arrays are owned; [triangles], [points] and [edges] are of the balloon's
+ * triangles, points with room and edges with room, from its first on. */
 struct topology {
     uint32_t (*neighbour)[3]; /* [triangles] across side k, from corner k to the next; MESH_NONE: a rim */
     double *rest_area;        /* [triangles] */
@@ -67,8 +69,8 @@ struct fan {
     int corner; /* of the triangle, that is the point */
 };
 
-/* The first of the triangles around a point counted against the clock, seen from outside: the one whose side before it is a rim; any,
- * and true, where there is no rim. */
+/* The first of the triangles around a point counted against the clock, seen from outside: the one whose side
+ * before it is a rim; any, and true, where there is no rim. */
 bool topology_first(const struct sim *sim, const struct sim_balloon *balloon, uint32_t point,
                     struct fan *fan);
 /* The next against the clock; false at a rim, and then *fan stays. */
@@ -77,7 +79,8 @@ bool topology_next(const struct sim *sim, const struct sim_balloon *balloon, str
 /* Whether there is room for another cut; counts one as refused if not. */
 bool topology_can_cut(struct sim *sim, struct sim_balloon *balloon);
 
-/* Cuts the edge across `side` of a triangle, which must not be a rim. Does not allocate; takes the time of the two ends' triangles. */
+/* Cuts the edge across `side` of a triangle, which must not be a rim. Does not allocate; takes the time of
+ * the two ends' triangles. */
 void topology_cut(struct sim *sim, struct sim_balloon *balloon, uint32_t triangle, int side);
 
 #endif

@@ -1,4 +1,5 @@
-/* Whether blocks that came from a file are a skin: every walk that topology.c takes ends, and stays within the tables. */
+/* Whether blocks that came from a file are a skin: every walk that topology.c takes ends, and
+ * stays within the tables. */
 #include "sim/topology.h"
 
 static bool within(uint32_t number, uint32_t begin, uint32_t end)
@@ -41,8 +42,8 @@ static bool numbers_fit(const struct sim *sim, const struct sim_balloon *b, uint
     return fit;
 }
 
-/* Each side's neighbour has the same edge, runs along it in the other sense and leads back, so that a turn around a point
- * comes to its start again. */
+/* Each side's neighbour has the same edge, runs along it in the other sense and leads back, so that a turn
+ * around a point comes to its start again. */
 static bool is_mutual(const struct sim *sim, const struct sim_balloon *b, uint32_t t, int k)
 {
     const uint32_t n = b->topology->neighbour[t - b->triangle_begin][k], *p = sim->triangle_point[t];

@@ -4,9 +4,9 @@
 
 #include <math.h>
 
-/* What takes as long as how many evaluations of the forces, on icospheres of 1280 to 20480 triangles, one thread: an evaluation
- * with the derivatives that an implicit method takes there (5.6 to 6.2), an iteration of its linear solver (3.3 to 3.9), and moving
- * the points over a step. */
+/* What takes as long as how many evaluations of the forces, on icospheres of 1280 to 20480 triangles, one
+ * thread: an evaluation with the derivatives that an implicit method takes there (5.6 to 6.2), an iteration
+ * of its linear solver (3.3 to 3.9), and moving the points over a step. */
 static const double derivatives_work = 5.7, iteration_work = 3.5, move_work = 0.15;
 
 /* The rows of sim->scratch, from the trial's first on. */
@@ -49,7 +49,8 @@ static uint64_t iterations_of(const struct sim *sim, const struct integrator *me
                                                : 0;
 }
 
-/* From here on an implicit method may take so many of the solver's iterations a step of the scene; 0: as many as it wants. */
+/* From here on an implicit method may take so many of the solver's iterations a step of the scene;
+ * 0: as many as it wants. */
 static void limit(struct sim *sim, const struct integrator *method, uint64_t iterations)
 {
     if (!(method->flags & INTEGRATOR_IMPLICIT))
@@ -58,7 +59,8 @@ static void limit(struct sim *sim, const struct integrator *method, uint64_t ite
     m->iterations_most = iterations ? m->solver.iterations + iterations : 0;
 }
 
-/* RMS distance of the points from where they were at the end of the run before, each in its balloon's radii. */
+/* RMS distance of the points from where they were at the end of the run before, each
+ * in its balloon's radii. */
 static double distance(const struct sim *sim, double (*coarse)[4])
 {
     double sum = 0;

@@ -1,13 +1,13 @@
 /*
- * Velocity Verlet: Swope, Andersen, Berens & Wilson, J. Chem. Phys. 76 (1982) 637. One force a step, second order,
- * symplectic without damping.
+ * Velocity Verlet: Swope, Andersen, Berens & Wilson, J. Chem. Phys. 76 (1982) 637. One force a step, second
+ * order, symplectic without damping.
  *
  *     v += dt/2 a;  x += dt v;  a = f(x, v + dt/2 a)/m;  v += dt/2 a
  *
- * Dampers ask for the velocity at the end of the step, which is not known before their force is. They get its prediction
- * by the last acceleration. That is off by dt^2, so the velocity is by dt^3 a step: the order stays second. The price is
- * stability against strong damping: a pure decay at rate c is stable up to c dt = 1, half of Euler's (the larger root of
- * s^2 - (1 - 3z/2) s - z/2, z = c dt, reaches -1 there).
+ * Dampers ask for the velocity at the end of the step, which is not known before their force is. They get its
+ * prediction by the last acceleration. That is off by dt^2, so the velocity is by dt^3 a step: the order
+ * stays second. The price is stability against strong damping: a pure decay at rate c is stable up to c dt =
+ * 1, half of Euler's (the larger root of s^2 - (1 - 3z/2) s - z/2, z = c dt, reaches -1 there).
  *
  * The acceleration is remembered from step to step; it is asked anew after everything that makes forces jump.
  */

@@ -22,7 +22,8 @@ static double breathing_rate(const struct sim *sim, const struct sim_balloon *b)
     return fmax(rate, 1 / fmax(sim->scene->time.end, sim->step));
 }
 
-/* Positions that are n radii from the origin carry a rounding error of n DBL_EPSILON/2, and a step adds up some ten terms. */
+/* Positions that are n radii from the origin carry a rounding error of n DBL_EPSILON/2, and a step
+ * adds up some ten terms. */
 static double reachable(const struct sim *sim, const struct sim_balloon *b)
 {
     double far = 0;

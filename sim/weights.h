@@ -1,16 +1,17 @@
 /*
- * What an error of a state is measured in, for methods that choose their own steps: places in the mean radius R of their
- * balloon at rest, speeds in R times the rate w at which it breathes, w^2 = sum k r^2 / sum m |x - c|^2 over its edges (k spring
- * constant, r rest length) and points: all edges stretched alike store sum k r^2 e^2/2 while points move |x - c| e. Without
- * springs, w is one over the time of the run. None of it depends on units, nor on where the origin is.
+ * What an error of a state is measured in, for methods that choose their own steps: places in the mean radius
+ * R of their balloon at rest, speeds in R times the rate w at which it breathes, w^2 = sum k r^2 / sum m |x -
+ * c|^2 over its edges (k spring constant, r rest length) and points: all edges stretched alike store sum k
+ * r^2 e^2/2 while points move |x - c| e. Without springs, w is one over the time of the run. None of it
+ * depends on units, nor on where the origin is.
  */
 #ifndef SIM_WEIGHTS_H
 #define SIM_WEIGHTS_H
 
 #include "sim/sim.h"
 
-/* Finds each balloon's rate at rest. Error: STATUS_RANGE when the scene's tolerance is below what the precision of
- * positions can give, which says what it can. */
+/* Finds each balloon's rate at rest. Error: STATUS_RANGE when the scene's tolerance is below what the
+ * precision of positions can give, which says what it can. */
 enum status weights_open(struct sim *sim, struct error *err);
 
 /* RMS over the points of (dx, dv), both rows of [point_count], over the tolerance. */

@@ -13,7 +13,8 @@
 #include <string.h>
 #include <time.h>
 
-/* A picture is not drawn more often than this; steps get this much of its time at least, and this share of it. */
+/* A picture is not drawn more often than this; steps get this much of its time at
+ * least, and this share of it. */
 static const double frame_seconds = 1.0 / 60, step_seconds = 0.012, step_share = 0.4;
 
 /* The clock that the simulation follows does not run on while the program was stopped. */
@@ -158,7 +159,8 @@ static void run(void *self)
     say_unless_ok(app, status, &err);
 }
 
-/* Steps are taken while a picture is being drawn, of the state before them; where none is drawn, as in a window that is hidden, here. */
+/* Steps are taken while a picture is being drawn, of the state before them; where none is drawn, as in a
+ * window that is hidden, here. */
 static void tick(void *self)
 {
     struct app *app = self;

@@ -1,4 +1,5 @@
-/* The live window of balloon-sim: the program layer's bridge between a simulation under the hand and its picture. */
+/* The live window of balloon-sim: the program layer's bridge between a simulation under
+ * the hand and its picture. */
 #ifndef SIM_WINDOW_H
 #define SIM_WINDOW_H
 
@@ -12,9 +13,10 @@ struct sim_window_options {
     size_t memory;   /* bytes for the past that it can go back to */
 };
 
-/* Opens a window on a sim that has not stepped, inflates at once, and returns when it has been closed. `estimate` (NULL: none) is asked
- * about each frame until the user changes anything. Errors: STATUS_RESOURCE without a display; those of the log; STATUS_INTERRUPTED, STATUS_TERMINATED
- * after a signal. A step that diverges is told of in the window. */
+/* Opens a window on a sim that has not stepped, inflates at once, and returns when it has been closed.
+ * `estimate` (NULL: none) is asked about each frame until the user changes anything. Errors: STATUS_RESOURCE
+ * without a display; those of the log; STATUS_INTERRUPTED, STATUS_TERMINATED after a signal. A step that
+ * diverges is told of in the window. */
 enum status sim_window(const struct sim_window_options *options, struct sim *sim, struct estimate *estimate,
                        struct error *err);
 

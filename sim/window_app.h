@@ -1,5 +1,6 @@
-/* Inside of the live window: what its files share. window.c answers the clock, window_mouse.c and window_keys.c the hand; window_draw.c shows the
- * skin, window_panel.c what lies over it, window_text.c what there is to be read; window_record.c films. */
+/* Inside of the live window: what its files share. window.c answers the clock, window_mouse.c and
+ * window_keys.c the hand; window_draw.c shows the skin, window_panel.c what lies over it, window_text.c what
+ * there is to be read; window_record.c films. */
 #ifndef SIM_WINDOW_APP_H
 #define SIM_WINDOW_APP_H
 
@@ -136,7 +137,8 @@ double app_stretch_most(const struct app *app);
 /* window_panel.c: the boxes of sliders, plot and legend, into app->boxes. False: no memory. */
 bool app_make_boxes(struct app *app);
 
-/* Where there is something to be dragged at a place of one eye's picture: DRAG_DIAL with the dial, DRAG_TIME, or DRAG_NOTHING. */
+/* Where there is something to be dragged at a place of one eye's picture: DRAG_DIAL with the dial,
+ * DRAG_TIME, or DRAG_NOTHING. */
 enum drag app_find_slider(const struct app *app, int x, int y, enum live_dial *dial);
 
 /* The value of a slider that is dragged to x; and where on it, from 0 to 1, a value is. */

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* From slack to taut, evenly spaced: dark blue, teal, green, yellow, red. Lightness rises up to the yellow, so that the order can be
- * read without its hues. */
+/* From slack to taut, evenly spaced: dark blue, teal, green, yellow, red. Lightness rises up to the yellow,
+ * so that the order can be read without its hues. */
 static const float scale_colours[][3] = {{0.02f, 0.03f, 0.20f},
                                          {0.01f, 0.17f, 0.30f},
                                          {0.03f, 0.38f, 0.12f},
@@ -21,7 +21,8 @@ static const double longest_scale = 6;
 
 static const double count_seconds = 0.5; /* pictures are counted over */
 
-/* Below so many frames a second outlines are filtered: the plain skin can be as quick as pictures come, one every sixtieth of a second, or nearly. */
+/* Below so many frames a second outlines are filtered: the plain skin can be as quick as pictures come, one
+ * every sixtieth of a second, or nearly. */
 static const double slow_rate[] = {[RENDER_PAPER] = 55, [RENDER_LATEX] = 40};
 
 /* Sampled ones are tried again after so many seconds, and then after twice as many, up to the most. */
@@ -184,8 +185,8 @@ static enum status make_scene(struct app *app, struct render_view *view, struct 
     return STATUS_OK;
 }
 
-/* Outlines of several samples cost about as much as all the rest, those that are filtered a fifth of it and look nearly the same: the
- * eye sees the skin moving in jerks long before it sees the difference. */
+/* Outlines of several samples cost about as much as all the rest, those that are filtered a fifth of it and
+ * look nearly the same: the eye sees the skin moving in jerks long before it sees the difference. */
 static void choose_outlines(struct app *app, double now)
 {
     if (app->live.paused)

@@ -1,4 +1,5 @@
-/* What lies over the picture in the live window: sliders, the plot of pressure against stretch, the legend of colours. */
+/* What lies over the picture in the live window: sliders, the plot of pressure against stretch,
+ * the legend of colours. */
 #include "common/array.h"
 #include "sim/window_app.h"
 
@@ -26,8 +27,9 @@ enum {
     BOXES_MAX = 8192,
 };
 
-/* A slider of pressure ends at this many times the scene's, and where that is 0 at the other; that of a pump has 0, and gas that is let out, in its
- * middle and before. The others go from a tenth to ten times theirs. */
+/* A slider of pressure ends at this many times the scene's, and where that is 0 at the other;
+ * that of a pump has 0, and gas that is let out, in its middle and before. The others go from a
+ * tenth to ten times theirs. */
 static const double pressure_most = 2.5, other_pressure_most = 25, other_pump_most = 1;
 
 static const float dark[3] = {0.02f, 0.02f, 0.025f}, light[3] = {0.75f, 0.75f, 0.72f},

@@ -1,4 +1,5 @@
-/* Films and pictures out of the live window: of the skin alone, a picture a frame of the scene however long that takes to draw. */
+/* Films and pictures out of the live window: of the skin alone, a picture a frame of the scene however
+ * long that takes to draw. */
 #include "common/mesh.h"
 #include "render/movie.h"
 #include "sim/window_app.h"

@@ -1,5 +1,6 @@
 /*
- * A scene without one of the effects that it calls for: what the effect's block adds is left out, and all else stays.
+ * A scene without one of the effects that it calls for: what the effect's block adds is left
+ * out, and all else stays.
  *
  *     struct without without;
  *     if (without_open(&without, &scene, effect, err)) ...        the reason why that cannot be
@@ -15,8 +16,9 @@ struct without {
     const char *instead; /* what does its work then; NULL: nothing */
 };
 
-/* Leaves the effect out of a checked scene, which must stay as long. Errors: STATUS_NO_MEMORY; STATUS_INPUT where that would be no scene: another block
- * needs it, or it adds nothing but says what something else means. It must be closed in any case. */
+/* Leaves the effect out of a checked scene, which must stay as long. Errors: STATUS_NO_MEMORY; STATUS_INPUT
+ * where that would be no scene: another block needs it, or it adds nothing but says what something else
+ * means. It must be closed in any case. */
 enum status without_open(struct without *without, const struct scene *scene, const struct effect *effect,
                          struct error *err);
 void without_close(struct without *without);

@@ -1,13 +1,15 @@
 /*
- * Position-based dynamics with compliant constraints: each spring with its damper is a constraint, solved by itself, implicitly,
- * one after the other, once in each of a few substeps. Never unstable with springs and dampers however stiff, at the cost of
- * an explicit method, and of first order. Its error: what all springs do together (a balloon that swells) is not what one by
- * one they do. There a spring acts as if softer, by 1 + (k h^2 + d h) (1/m_a + 1/m_b) in a substep of h: a few springs of any
- * stiffness are as good as rigid, but when it is most of them, there are more substeps. Pressure and what effects add are
- * forces from outside, as they are where a substep begins.
+ * Position-based dynamics with compliant constraints: each spring with its damper is a constraint, solved by
+ * itself, implicitly, one after the other, once in each of a few substeps. Never unstable with springs and
+ * dampers however stiff, at the cost of an explicit method, and of first order. Its error: what all springs
+ * do together (a balloon that swells) is not what one by one they do. There a spring acts as if softer, by 1
+ * + (k h^2 + d h) (1/m_a + 1/m_b) in a substep of h: a few springs of any stiffness are as good as rigid, but
+ * when it is most of them, there are more substeps. Pressure and what effects add are forces from outside, as
+ * they are where a substep begins.
  *
- * Edges that meet cannot be solved at the same time. They are coloured so that no two of a colour meet: those of a colour can
- * be solved in any order, by any number of threads, to the same bits; the colours follow each other.
+ * Edges that meet cannot be solved at the same time. They are coloured so that no two of a colour
+ * meet: those of a colour can be solved in any order, by any number of threads, to the same bits; the
+ * colours follow each other.
  */
 #include "common/array.h"
 #include "common/threads.h"
@@ -37,7 +39,8 @@ static uint32_t lowest_free(uint64_t used)
     return colour;
 }
 
-/* Each edge in turn takes the first colour that none of those it meets has; with more than COLOURS - 1, the last. */
+/* Each edge in turn takes the first colour that none of those it meets has; with more than
+ * COLOURS - 1, the last. */
 static void colour_edges(const struct sim *sim, unsigned char *colour, uint64_t *used)
 {
     for (uint32_t e = 0; e < sim->edge_count; e++) {
@@ -119,7 +122,8 @@ static void predict_part(struct sim *sim, const struct sim_part *part, void *con
 /*
  * With C = |l| - r, its gradient u at a and -u at b, the stiffness k and the damping d,
  *     -s = (k h^2 C + d h u . (dx_a - dx_b)) / (1 + (k h^2 + d h) (1/m_a + 1/m_b)),    x_a += s u / m_a,   x_b -= s u / m_b
- * dx being the way since the substep began: equation 26 there, multiplied by the stiffness so that it may be 0.
+ * dx being the way since the substep began: equation 26 there, multiplied by the
+ * stiffness so that it may be 0.
  */
 static void solve_edge(struct sim *sim, uint32_t e, double damping, double h)
 {

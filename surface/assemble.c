@@ -26,8 +26,8 @@ static void find_neighbours(struct assembly *a)
     }
 }
 
-/* The number of the vertex on an edge of the cell at x, y, z. The brick that owns it is there: it has that edge's
- * ends on different sides. */
+/* The number of the vertex on an edge of the cell at x, y, z. The brick that owns it is there: it has that
+ * edge's ends on different sides. */
 static uint32_t vertex_number(const struct assembly *a, const int at[3], int edge)
 {
     int base = a->m->cells.ends[edge][0], axis = edge / 4;

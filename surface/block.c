@@ -34,8 +34,8 @@ static bool make_room(double **items, size_t count, size_t *room)
     return *items;
 }
 
-/* How many bricks along an axis share a window: gathering is paid for once for all of them, while a window much
- * wider than the fields reach would be longer to look through for each. */
+/* How many bricks along an axis share a window: gathering is paid for once for all of them, while a window
+ * much wider than the fields reach would be longer to look through for each. */
 static int bricks_that_share(const struct grid *grid)
 {
     double side = BRICK * grid->cube, reach = grid->field->reach;
@@ -79,8 +79,8 @@ bool block_move(struct block *block, const int at[3])
     return true;
 }
 
-/* The sums of one row of the window along x at all places of the block, and their slopes; to number `row` of the
- * block. */
+/* The sums of one row of the window along x at all places of the block, and their slopes; to
+ * number `row` of the block. */
 static void sum_row(struct block *block, enum field_track track, size_t window_row_number, size_t row)
 {
     const struct window *w = &block->window;

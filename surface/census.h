@@ -1,5 +1,6 @@
 /*
- * What a mesh is made of, part by part, and how regular its triangles are; how far it is from the field's surface.
+ * What a mesh is made of, part by part, and how regular its triangles are; how far it is
+ * from the field's surface.
  *
  *     struct surface_census census;
  *     if (surface_count(&mesh, &shape, &census, err)) ...
@@ -40,11 +41,11 @@ enum status surface_count(const struct mesh *mesh, const struct surface_shape *s
 void surface_census_clear(struct surface_census *census);
 
 /*
- * Distances to the surface f = T of the options' field, in units of the first cube: of the points alone, and of
- * the flat triangles between them. From a place Newton's method runs along the gradient to the surface, and the
- * distance is that to where it ends: the nearest point's to second order in the distance. Triangles are looked at
- * by the rule of seven places, exact for cubic functions: corners weigh 1/20, middles of sides 2/15, the centre
- * 9/20. Of many triangles every so-manieth is taken, about COMPARE_TRIANGLES of them.
+ * Distances to the surface f = T of the options' field, in units of the first cube: of the points alone, and
+ * of the flat triangles between them. From a place Newton's method runs along the gradient to the surface,
+ * and the distance is that to where it ends: the nearest point's to second order in the distance. Triangles
+ * are looked at by the rule of seven places, exact for cubic functions: corners weigh 1/20, middles of sides
+ * 2/15, the centre 9/20. Of many triangles every so-manieth is taken, about COMPARE_TRIANGLES of them.
  */
 enum { COMPARE_TRIANGLES = 20000 };
 

@@ -52,8 +52,8 @@ static void tell(struct walk *w)
         w->base.progress(w->base.progress_context, (double)w->done / STEPS);
 }
 
-/* Makes a mesh and notes its price, the best of some turns where they are short: a machine that does something else
- * meanwhile bends the curves. Area and volume are still as they are, not errors. */
+/* Makes a mesh and notes its price, the best of some turns where they are short: a machine that does
+ * something else meanwhile bends the curves. Area and volume are still as they are, not errors. */
 static enum status make(struct walk *w, const struct surface_options *options, struct mesh *mesh,
                         struct cost_row *row, struct error *err)
 {

@@ -1,20 +1,21 @@
 /*
- * What accuracy costs, on the user's own sculpture: each dial is walked through a ladder, the others staying where the
- * options have them.
+ * What accuracy costs, on the user's own sculpture: each dial is walked through a ladder, the others staying
+ * where the options have them.
  *
  *     struct cost_table table;
  *     if (surface_cost(&tree, &options, &table, err)) ...
  *
  * All errors are shares of the sculpture's longest extent, of the reference's area, or of its volume.
  *
- * Cube size and relaxation: the triangles' distance from the surface of the options' own field (surface_compare();
- * points lie on it, so it is the flat triangles between them that are off). Area and volume against those of an
- * infinitely fine mesh, by Richardson's extrapolation from the two finest that are an octave apart, of second order.
+ * Cube size and relaxation: the triangles' distance from the surface of the options' own field
+ * (surface_compare(); points lie on it, so it is the flat triangles between them that are off). Area and
+ * volume against those of an infinitely fine mesh, by Richardson's extrapolation from the two finest that are
+ * an octave apart, of second order.
  *
- * Fields per cube and cut-off move the surface itself: the distance of the mesh's points from the surface of the exact
- * field with the widest cut-off, and area and volume against a mesh of that one with the same cubes. Where the exact
- * field does not reach the threshold (one wide Gaussian a cube does), the fields per cube are not walked, and cut-offs
- * are compared with the options' own fields.
+ * Fields per cube and cut-off move the surface itself: the distance of the mesh's points from the surface of
+ * the exact field with the widest cut-off, and area and volume against a mesh of that one with the same
+ * cubes. Where the exact field does not reach the threshold (one wide Gaussian a cube does), the fields per
+ * cube are not walked, and cut-offs are compared with the options' own fields.
  */
 #ifndef SURFACE_COST_H
 #define SURFACE_COST_H
@@ -43,12 +44,13 @@ struct cost_table {
     double extent;            /* the sculpture's longest, in units of the first cube */
 };
 
-/* Settings at which there is no surface are left out. Errors: those of surface_make() at the options themselves. */
+/* Settings at which there is no surface are left out. Errors: those of surface_make() at
+ * the options themselves. */
 enum status surface_cost(const struct octree *tree, const struct surface_options *options,
                          struct cost_table *table, struct error *err);
 
-/* The cheapest setting of a dial found to keep the RMS error below `error`; for cube sizes beyond the ladder it is
- * extrapolated by the fitted order. False where there is none. */
+/* The cheapest setting of a dial found to keep the RMS error below `error`; for cube sizes beyond the ladder
+ * it is extrapolated by the fitted order. False where there is none. */
 bool cost_recommend(const struct cost_table *table, enum cost_dial dial, double error, char setting[32]);
 
 #endif

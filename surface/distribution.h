@@ -2,13 +2,13 @@
  * The normal distribution, cut off at R and normalised again, without a call of erf() or exp(): Taylor
  * polynomials about tabulated nodes.
  *
- * P(u) = erf(u / sqrt 2) / (2 m), m = erf(R / sqrt 2): the distribution function less a half. Its derivatives
- * are P^(k+1)(u) = (-1)^k He_k(u) exp(-u^2/2) / (sqrt(2 pi) m), He_k the Hermite polynomials, He_(k+1) =
- * u He_k - k He_(k-1) (Abramowitz and Stegun, Handbook of Mathematical Functions, 26.2.28 and 22.7.14). Nodes
- * lie 1/16 apart, so u is within 1/32 of one, and the 8 terms kept leave out at most |P^(8)| / 8! / 32^8. By
- * Cramer's bound (22.14.17) |He_7(u)| exp(-u^2/4) <= 1.09 sqrt(7!) = 78, so |P^(8)| <= 31 / m and the error is
- * below 7.1e-16 for R >= 2, as small as the rounding of the sum. The slope's is below 8 x 32 times that:
- * 1.8e-13.
+ * P(u) = erf(u / sqrt 2) / (2 m), m = erf(R / sqrt 2): the distribution function less a half. Its
+ * derivatives are P^(k+1)(u) = (-1)^k He_k(u) exp(-u^2/2) / (sqrt(2 pi) m), He_k the Hermite polynomials,
+ * He_(k+1) = u He_k - k He_(k-1) (Abramowitz and Stegun, Handbook of Mathematical Functions, 26.2.28 and
+ * 22.7.14). Nodes lie 1/16 apart, so u is within 1/32 of one, and the 8 terms kept leave out at most |P^(8)|
+ * / 8! / 32^8. By Cramer's bound (22.14.17) |He_7(u)| exp(-u^2/4) <= 1.09 sqrt(7!) = 78, so |P^(8)| <= 31 /
+ * m and the error is below 7.1e-16 for R >= 2, as small as the rounding of the sum. The slope's is below 8 x
+ * 32 times that: 1.8e-13.
  */
 #ifndef SURFACE_DISTRIBUTION_H
 #define SURFACE_DISTRIBUTION_H

@@ -167,7 +167,8 @@ static void fill_lattice(const struct field *field, double x, const struct field
     }
 }
 
-/* floor(x), kept to the planes there are. Without a call of the library's, which would be the slowest part. */
+/* floor(x), kept to the planes there are. Without a call of the library's, which
+ * would be the slowest part. */
 static int plane_below(const struct field *field, double x)
 {
     return x < 0 ? 0 : x > field->side + 1 ? field->side + 1 : (int)x;

@@ -32,9 +32,9 @@
  * the b_k, 0 among them: the mass of the Gaussian outside the cube of half side R s (1.7e-6 at R = 5, 5.9e-9
  * at R = 6).
  *
- * The value at a point is a pure function of the point: sums run along x, then y, then z, within a row in the
- * octree's Morton order, and what is out of reach adds exactly 0. So any two ways to gather the leaves give the
- * same bits.
+ * The value at a point is a pure function of the point: sums run along x, then y, then z, within a row in
+ * the octree's Morton order, and what is out of reach adds exactly 0. So any two ways to gather the
+ * leaves give the same bits.
  */
 #ifndef SURFACE_FIELD_H
 #define SURFACE_FIELD_H
@@ -94,8 +94,8 @@ struct field {
 enum status field_init(struct field *field, const struct octree *tree, const struct field_settings *settings,
                        struct error *err);
 
-/* *cut becomes the same field with its Gaussians ending at `cutoff` (in s, 2 .. 8) where that is less: quicker, and off
- * by at most what is said above. Its steepness stays that of `field`. */
+/* *cut becomes the same field with its Gaussians ending at `cutoff` (in s, 2 .. 8) where that is less:
+ * quicker, and off by at most what is said above. Its steepness stays that of `field`. */
 void field_cut_earlier(struct field *cut, const struct field *field, double cutoff);
 
 /* One-dimensional sums at a coordinate x. sum[track][i - first] is that over all lattice points below plane

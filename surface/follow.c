@@ -8,8 +8,8 @@
 #define FIRST_X 0x0101010101010101u
 #define LAST_X  (FIRST_X << 7)
 
-/* The cells whose lower or upper face across an axis the surface passes through: that face's corners are not all on
- * one side. */
+/* The cells whose lower or upper face across an axis the surface passes through: that face's corners
+ * are not all on one side. */
 struct faces {
     uint64_t lower[3][BRICK], upper[3][BRICK];
 };

@@ -11,8 +11,8 @@ static int floor_divide(double value, int by)
     return (int)floor(value / by);
 }
 
-/* Bricks around all corners that the field reaches, with at least one corner to spare on each side, in groups of
- * GRID_GROUP along each axis. */
+/* Bricks around all corners that the field reaches, with at least one corner to spare on each side, in groups
+ * of GRID_GROUP along each axis. */
 static void find_bounds(struct grid *grid)
 {
     struct octree_info info = octree_measure(grid->field->tree);

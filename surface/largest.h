@@ -5,8 +5,8 @@
 #include "surface/field.h"
 
 /* The largest value found at the middles of leaves, their faces and their first sub-cells, and uphill from
- * the best of these; and the point, in the octree's cells. Where sigma is wide, one leaf in each aligned cube of
- * up to its size is enough. Errors: STATUS_NO_MEMORY. */
+ * the best of these; and the point, in the octree's cells. Where sigma is wide, one leaf in each aligned cube
+ * of up to its size is enough. Errors: STATUS_NO_MEMORY. */
 enum status field_largest(const struct field *field, double *value, double point[3], struct error *err);
 
 #endif

@@ -82,8 +82,8 @@ static void add_row(const struct block *block, size_t row, double share, double 
     }
 }
 
-/* Whole rows added up along z at one place of it: as changes from cell to cell along x first. All edges along x at
- * that place share this. */
+/* Whole rows added up along z at one place of it: as changes from cell to cell along x first. All edges along
+ * x at that place share this. */
 static void fill_beam(struct block *block, int place, double *sum, double *slopes)
 {
     const struct profile *z = &block->profile[2][place];

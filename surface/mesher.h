@@ -136,8 +136,9 @@ static inline unsigned cells_crossed(const struct brick *brick, int y, int z)
     return (any | any >> 1) & ~(all & all >> 1) & 0xff;
 }
 
-/* The loops of a cell through which the surface passes: the table's, or *own, worked out for a cell with
- * ambiguous faces, where the field in the middle of each decides. Both cells of a face ask at the same place. */
+/* The loops of a cell through which the surface passes: the table's, or *own, worked out for a
+ * cell with ambiguous faces, where the field in the middle of each decides. Both cells of a face
+ * ask at the same place. */
 const struct cell_loops *cell_loops_of(const struct mesher *m, struct worker *worker,
                                        const struct brick *brick, const int at[3], unsigned inside,
                                        struct cell_loops *own);

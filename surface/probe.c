@@ -18,8 +18,8 @@ void probe_clear(struct probe *probe)
     *probe = (struct probe){0};
 }
 
-/* Gathering the fields of a window takes as long as some tens of values: it is made wide enough for a few hundred
- * points of a surface, and for neighbouring windows not to overlap by more than they are wide. */
+/* Gathering the fields of a window takes as long as some tens of values: it is made wide enough for a few
+ * hundred points of a surface, and for neighbouring windows not to overlap by more than they are wide. */
 void probe_expect(struct probe *probe, double spacing)
 {
     enum { POINTS = 16 }; /* along a side */

@@ -32,7 +32,8 @@ struct probe {
 enum status probe_init(struct probe *probe, const struct field *field, struct error *err);
 void probe_clear(struct probe *probe);
 
-/* Prepares for many points on a surface, each about `spacing` cells from the next. Values are the same, only sooner. */
+/* Prepares for many points on a surface, each about `spacing` cells from the next. Values are
+ * the same, only sooner. */
 void probe_expect(struct probe *probe, double spacing);
 
 /* The field at a point, and its gradient. */

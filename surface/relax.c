@@ -15,11 +15,12 @@ enum { CURES = 8 }; /* turns at what is left of narrow angles after the rounds *
 #define EDGE_MOST  1.45
 #define EDGE_LONG  1.52 /* at the end, where edges were stretched as points settled */
 
-/* Angles that turns at the end begin with: some degrees more than the 25 promised, since points still move. */
+/* Angles that turns at the end begin with: some degrees more than the 25 promised,
+ * since points still move. */
 #define ANGLE_WANTED 29
 
-/* How far from where it is a point may settle at the end, in mean edges: never seen to matter but for cubes larger
- * than the sculpture's detail. */
+/* How far from where it is a point may settle at the end, in mean edges: never seen to matter but for cubes
+ * larger than the sculpture's detail. */
 #define REACH 4
 
 struct relax {

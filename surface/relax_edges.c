@@ -32,8 +32,8 @@ static double least_of(double a, double b, double c)
     return least < c ? least : c;
 }
 
-/* The smallest angle lies between the two longer sides: its sine is twice the area over their product. 0 where there
- * is no area. */
+/* The smallest angle lies between the two longer sides: its sine is twice the area over their product. 0
+ * where there is no area. */
 static double angle_of(const double *const place[3], double across[3])
 {
     vec3_triangle(place[0], place[1], place[2], across);
@@ -108,8 +108,8 @@ static void halfway(const struct remesh *r, uint32_t side, double place[3], doub
     }
 }
 
-/* The worst of the triangles round a point but those of the edge's two sides, as they are and with the point at
- * another place; false where one of their edges from there would be longer than sqrt(most_square). */
+/* The worst of the triangles round a point but those of the edge's two sides, as they are and with the point
+ * at another place; false where one of their edges from there would be longer than sqrt(most_square). */
 static bool try_moved(const struct remesh *r, uint32_t point, uint32_t side, const double place[3],
                       const double normal[3], double most_square, struct worth *before, struct worth *after)
 {

@@ -4,8 +4,9 @@
 
 #include "surface/probe.h"
 
-/* Brings a point near the surface f = T onto it, and its normal to what the field says there. place is in units of
- * the first cube, as is reach: how far to look where Newton's method finds no way. Returns |f - T|. */
+/* Brings a point near the surface f = T onto it, and its normal to what the field says there.
+ * place is in units of the first cube, as is reach: how far to look where Newton's method finds
+ * no way. Returns |f - T|. */
 double relax_settle(struct probe *probe, double threshold, double reach, double place[3], double normal[3]);
 
 #endif

@@ -10,17 +10,17 @@
 
 enum { BLOCK = 2048 }; /* points that a worker takes at a time */
 
-/* A point does not go further in a round than this share of the mean edge, and is left alone where it would go less
- * than STILL of it. */
+/* A point does not go further in a round than this share of the mean edge, and is left alone where it would
+ * go less than STILL of it. */
 #define STEP_MOST 0.3
 #define STILL     0.002
 
-/* After so much of an edge a point is brought back to the surface. An edge that turns by an angle a has come off it by
- * a/2 times the square of this. */
+/* After so much of an edge a point is brought back to the surface. An edge that turns by an angle a has come
+ * off it by a/2 times the square of this. */
 #define WAY_MOST 0.1f
 
-/* The field's value is off by at most 3 erfc(CUTOFF / sqrt 2), 1.4e-3, which the last steps of Newton's method make
- * good. */
+/* The field's value is off by at most 3 erfc(CUTOFF / sqrt 2), 1.4e-3, which the last steps of
+ * Newton's method make good. */
 #define CUTOFF 3.5
 
 /* No triangle turns from its points' normals further than this cosine, or than it was. */

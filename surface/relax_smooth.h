@@ -7,9 +7,10 @@
  *     if (smoothing_round(&s)) ...                 as often as wanted; the mesh may change in between
  *     smoothing_close(&s);
  *
- * A round moves each point within its tangent plane. That leaves the surface by the square of the way only, so a
- * point is brought back to it, by a step of Newton's method, once its moves since the last time add up to a share
- * of an edge. Until points settle at the end a field that is cut off early is near enough, and costs less.
+ * A round moves each point within its tangent plane. That leaves the surface by the square of the way
+ * only, so a point is brought back to it, by a step of Newton's method, once its moves since the last time
+ * add up to a share of an edge. Until points settle at the end a field that is cut off early is near
+ * enough, and costs less.
  */
 #ifndef SURFACE_RELAX_SMOOTH_H
 #define SURFACE_RELAX_SMOOTH_H
@@ -38,8 +39,8 @@ struct smoothing {
 enum status smoothing_open(struct smoothing *s, struct remesh *r, const struct field *field, double threshold,
                            struct threads *pool, struct error *err);
 
-/* All points move, but for those whose triangles would turn over; these stay, which may turn others, and so on: at
- * most until all stay. False when memory ran out. */
+/* All points move, but for those whose triangles would turn over; these stay, which may turn others, and so
+ * on: at most until all stay. False when memory ran out. */
 bool smoothing_round(struct smoothing *s);
 
 /* Bytes of the points' arrays. */

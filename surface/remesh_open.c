@@ -6,8 +6,9 @@
 #include <string.h>
 
 /*
- * Each side waits in a list of its edge's smaller point until the edge's other side comes. Until then `across`
- * holds the next of the list, so the lists need no room of their own. On a closed mesh all lists end empty.
+ * Each side waits in a list of its edge's smaller point until the edge's other side comes. Until
+ * then `across` holds the next of the list, so the lists need no room of their own. On a closed
+ * mesh all lists end empty.
  */
 static bool match_sides(struct remesh *r, uint32_t *first)
 {
@@ -74,8 +75,8 @@ enum status remesh_open(struct remesh *r, struct mesh *mesh, struct error *err)
     return STATUS_OK;
 }
 
-/* Numbers the points that are left: number[p], MESH_NONE for the others, by counting how many come before each
- * old point's place. */
+/* Numbers the points that are left: number[p], MESH_NONE for the others, by counting how many come before
+ * each old point's place. */
 static bool number_points(const struct remesh *r, uint32_t *number)
 {
     uint32_t *place = calloc((size_t)r->first_new + 1, sizeof *place);
@@ -109,7 +110,8 @@ static uint32_t lowest(const uint32_t t[3])
     return least < t[2] ? least : t[2];
 }
 
-/* Triangles in the order of their lowest point, which they begin with; `first` is room for point_count + 1. */
+/* Triangles in the order of their lowest point, which they begin with; `first` is
+ * room for point_count + 1. */
 static void put_triangles(const struct remesh *r, const uint32_t *number, uint32_t *first, struct mesh *mesh)
 {
     memset(first, 0, ((size_t)mesh->point_count + 1) * sizeof *first);

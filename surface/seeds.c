@@ -168,8 +168,8 @@ static bool far_from_threshold(const struct mesher *m, struct worker *worker, co
     return most < m->threshold && fabs(probe_value(&worker->probe, middle, gradient) - m->threshold) > most;
 }
 
-/* Whether all corners of the bricks low .. high are proven to be on one side. A single brick's middle is looked
- * at when it is made, which gathers the fields around it anyway. */
+/* Whether all corners of the bricks low .. high are proven to be on one side. A single brick's middle is
+ * looked at when it is made, which gathers the fields around it anyway. */
 static bool left_out(const struct mesher *m, struct worker *worker, const struct bounds *bounds,
                      const struct box *box)
 {
@@ -231,8 +231,8 @@ struct descent {
     atomic_size_t done;
 };
 
-/* Cuts a box into jobs, groups of bricks: a millisecond or so of work, so that workers end together. What can be
- * left out is. */
+/* Cuts a box into jobs, groups of bricks: a millisecond or so of work, so that workers end together.
+ * What can be left out is. */
 static void plan(struct descent *d, const struct box *box)
 {
     struct mesher *m = d->m;

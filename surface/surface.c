@@ -30,8 +30,8 @@ static double expected_points(const struct making *making, double cube)
     return (double)making->info.exposed_faces / (cube * cube);
 }
 
-/* Bytes at the peak for each point, two triangles with it: while the mesh is put together, its vertex and its place in
- * the mesh; while it is relaxed, where it is and where it goes. */
+/* Bytes at the peak for each point, two triangles with it: while the mesh is put together, its vertex and its
+ * place in the mesh; while it is relaxed, where it is and where it goes. */
 enum { POINT_BYTES = 240 };
 
 static double usable_memory(void)

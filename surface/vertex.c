@@ -115,8 +115,8 @@ void find_crossing(const struct mesher *m, struct worker *worker, const double i
     note_residual(worker, excess);
 }
 
-/* Where the cubic in the excess passes 0 that has both ends' places (0 and 1) and slopes: two orders better than
- * the straight line, whose share stands in where the slopes are of no use. */
+/* Where the cubic in the excess passes 0 that has both ends' places (0 and 1) and slopes: two orders better
+ * than the straight line, whose share stands in where the slopes are of no use. */
 static double first_share(double first, double last, double slope_first, double slope_last)
 {
     double rise = last - first, t = -first / rise;

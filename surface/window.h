@@ -1,7 +1,7 @@
 /*
  * The boxes of fields that reach some region, gathered from the octree and sorted into rows along x: what the
- * sum at a point runs over. In each row neighbouring leaves of one material are one run, so big leaves and long
- * bars cost as little as one cell.
+ * sum at a point runs over. In each row neighbouring leaves of one material are one run, so big leaves and
+ * long bars cost as little as one cell.
  */
 #ifndef SURFACE_WINDOW_H
 #define SURFACE_WINDOW_H

@@ -1,5 +1,5 @@
-/* The whole program: balloon-sim on the paper's sphere, by what it is asked to write. The paper's machine took about
- * one second a frame: 400 s. bench_burst BALLOON-SIM SCENE */
+/* The whole program: balloon-sim on the paper's sphere, by what it is asked to write. The paper's machine
+ * took about one second a frame: 400 s. bench_burst BALLOON-SIM SCENE */
 #include "support/bench_program.h"
 
 /* Runs the program with these arguments in a folder of its own; one row of the table. */

@@ -1,5 +1,6 @@
-/* What obstacles, needles and contact cost an icosphere of 20,480 triangles, in steps of springs and constant pressure alone: while nothing is near, and
- * stage by stage while the balloon is sucked empty and folds; on one thread and on two, which come to the same states. bench_contact */
+/* What obstacles, needles and contact cost an icosphere of 20,480 triangles, in steps of springs and constant
+ * pressure alone: while nothing is near, and stage by stage while the balloon is sucked empty and folds; on
+ * one thread and on two, which come to the same states. bench_contact */
 #include "sim/contact.h"
 #include "support/bench.h"
 #include "support/shapes.h"

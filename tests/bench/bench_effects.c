@@ -1,5 +1,5 @@
-/* What each effect adds to a step of 20,480 triangles with springs under constant pressure. Steps with and without it
- * take turns, so that other programs weigh on both alike; the best of each counts. */
+/* What each effect adds to a step of 20,480 triangles with springs under constant pressure. Steps with and
+ * without it take turns, so that other programs weigh on both alike; the best of each counts. */
 #include "common/threads.h"
 #include "sim/explain.h"
 #include "sim/sim.h"

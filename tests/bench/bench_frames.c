@@ -1,5 +1,5 @@
-/* What frames cost: a sphere whose skin thins, drawn in each style and order, what sorting is of it, and 400 stereo frames of 3000
- * triangles written. */
+/* What frames cost: a sphere whose skin thins, drawn in each style and order, what sorting is of it, and 400
+ * stereo frames of 3000 triangles written. */
 #include "render/cells.h"
 #include "render/frames.h"
 #include "render/render.h"
@@ -84,8 +84,8 @@ static void close_scene(struct scene *scene)
     sphere_free(&scene->mesh);
 }
 
-/* By the clock, by this thread's own time, and by all threads'. Where nothing else runs, two cores draw a frame in about the second
- * and half of what the third is more. */
+/* By the clock, by this thread's own time, and by all threads'. Where nothing else runs, two cores draw a
+ * frame in about the second and half of what the third is more. */
 struct cost {
     double clock, thread, process; /* ms a frame */
 };
@@ -113,8 +113,8 @@ static double encode_ms(struct scene *scene)
     return spent / SAMPLES * 1e3;
 }
 
-/* Drawing alone, encoding alone, and both: what is more than the larger of the two is what they keep each other from. Two cores have no less
- * to do than half of all threads' time. */
+/* Drawing alone, encoding alone, and both: what is more than the larger of the two is what they keep each
+ * other from. Two cores have no less to do than half of all threads' time. */
 static void measure(struct scene *scene, const char *name, int asked, struct frames_options options)
 {
     struct error err;
@@ -166,8 +166,8 @@ static void draw_all_ways(void)
     }
 }
 
-/* Of one frame, in this thread: the order itself, and the cells that bring neighbours together again in each eye's picture; and what the
- * order changes in drawing, of all threads' time. */
+/* Of one frame, in this thread: the order itself, and the cells that bring neighbours together again in each
+ * eye's picture; and what the order changes in drawing, of all threads' time. */
 static void share_of_sorting(struct scene *scene, const char *style)
 {
     struct error err;

@@ -1,6 +1,7 @@
-/* Implicit methods on one core: what a step costs, in forces, products with their derivatives, and time, for springs that are
- * all alike and for one in twenty a thousand and a million times stiffer; on the mesh that is given and an icosphere of 20 thousand triangles. The
- * step is in units of the longest that velocity Verlet is stable with. bench_implicit MESH */
+/* Implicit methods on one core: what a step costs, in forces, products with their derivatives, and time, for
+ * springs that are all alike and for one in twenty a thousand and a million times stiffer; on the mesh that
+ * is given and an icosphere of 20 thousand triangles. The step is in units of the longest that velocity
+ * Verlet is stable with. bench_implicit MESH */
 #include "stiff_sphere.h"
 #include "support/shapes.h"
 
@@ -12,8 +13,8 @@ struct setting {
     double contrast, times_limit;
 };
 
-/* Twice over the root of the largest k / m that two points and a spring have, or of a mesh of equal springs (7.07 k / m on the
- * paper's sphere). */
+/* Twice over the root of the largest k / m that two points and a spring have, or of a mesh of equal springs
+ * (7.07 k / m on the paper's sphere). */
 static double explicit_limit(double spring, double contrast)
 {
     return 2 / sqrt(spring * fmax(7.07, 2 * contrast));

@@ -1,6 +1,7 @@
-/* Every integrator on one core: what a step costs in forces and time, and what a simulated second costs at which error. The
- * paper's sphere with 1 as its points' mass, under pressure, until 1 s, before anything breaks; errors are RMS of positions over
- * the radius, against rk4 in steps of half a millisecond. bench_integrators MESH */
+/* Every integrator on one core: what a step costs in forces and time, and what a simulated second costs at
+ * which error. The paper's sphere with 1 as its points' mass, under pressure, until 1 s, before anything
+ * breaks; errors are RMS of positions over the radius, against rk4 in steps of half a millisecond.
+ * bench_integrators MESH */
 #include "sim/sim.h"
 #include "support/bench.h"
 #include "support/shapes.h"

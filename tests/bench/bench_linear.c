@@ -1,9 +1,10 @@
-/* The linear systems of implicit methods, on one core: what each solver takes to come within 1e-4 of the solution of Newton's first
- * step. bench_linear MESH
+/* The linear systems of implicit methods, on one core: what each solver takes to come within 1e-4 of the
+ * solution of Newton's first step. bench_linear MESH
  *
- * bicgstab and gmres (restarted after 30) are preconditioned by the DILU of solver.h; cholesky is gmres preconditioned by the exact
- * factors of the system's symmetric part without pressure off the diagonal, by CHOLMOD, of which preparing is factoring alone: finding
- * where its factors have numbers is needed once a mesh. Without pressure and dampers the system is symmetric, and cg is there too. */
+ * bicgstab and gmres (restarted after 30) are preconditioned by the DILU of solver.h; cholesky is gmres
+ * preconditioned by the exact factors of the system's symmetric part without pressure off the diagonal, by
+ * CHOLMOD, of which preparing is factoring alone: finding where its factors have numbers is needed once a
+ * mesh. Without pressure and dampers the system is symmetric, and cg is there too. */
 #include "sim/jacobian.h"
 #include "sim/jacobian_kernels.h"
 #include "sim/solver.h"
@@ -63,7 +64,8 @@ static bool bicgstab(struct system *s, double tolerance)
     return good;
 }
 
-/* Turns column k of the triangle by the rotations before it, and by a new one that makes its last number 0; and the right-hand side. */
+/* Turns column k of the triangle by the rotations before it, and by a new one that makes its last number 0;
+ * and the right-hand side. */
 static void rotate(double column[BASIS], int k, double turn[RESTART][2], double side[BASIS])
 {
     for (int i = 0; i < k; i++) {
@@ -79,7 +81,8 @@ static void rotate(double column[BASIS], int k, double turn[RESTART][2], double 
     side[k] *= turn[k][0];
 }
 
-/* One round: x becomes what makes the preconditioned residual least among x + its Krylov space. Returns that residual. */
+/* One round: x becomes what makes the preconditioned residual least among x + its Krylov space.
+ * Returns that residual. */
 static double gmres_round(struct system *s, double enough)
 {
     double triangle[RESTART][BASIS] = {0}, turn[RESTART][2], side[BASIS] = {norm(s, s->basis[0])};

@@ -1,6 +1,6 @@
-/* The live window while a balloon swells and swings in it: how many pictures a second, and where a picture's time goes. It is
- * balloon-sim's own window, on whatever display there is, whose calls are watched on their way (the linker's --wrap).
- * bench_live BALLOON-SURFACE SPHERE.oct SPHERE.ply */
+/* The live window while a balloon swells and swings in it: how many pictures a second, and where a picture's
+ * time goes. It is balloon-sim's own window, on whatever display there is, whose calls are watched on their
+ * way (the linker's --wrap). bench_live BALLOON-SURFACE SPHERE.oct SPHERE.ply */
 #include "common/command.h"
 #include "render/geometry.h"
 #include "sim/window_app.h"

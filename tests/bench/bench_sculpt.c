@@ -20,7 +20,8 @@ static void make(struct octree *tree, unsigned depth, unsigned material)
     bench_check(octree_init(tree, depth, material, &err), &err);
 }
 
-/* Balls with centres on a ball's surface of radius 0.35 round the middle, as a hand moves over a sculpture. */
+/* Balls with centres on a ball's surface of radius 0.35 round the middle, as a hand
+ * moves over a sculpture. */
 static struct chip brush(enum chip_kind kind, double radius, uint64_t *seed)
 {
     struct chip chip = {.kind = kind, .shape = CHIP_SPHERE};
@@ -111,8 +112,8 @@ static void bench_tool(enum chip_kind kind, unsigned depth, double cells, int co
     octree_clear(&tree);
 }
 
-/* Rays from one place row by row, as a picture or a pointer has them, or from all around towards somewhere in the
- * cube, at random. */
+/* Rays from one place row by row, as a picture or a pointer has them, or from all around towards somewhere
+ * in the cube, at random. */
 static void ray_at(int i, bool random, uint64_t *seed, double origin[3], double direction[3])
 {
     const struct chip from = random ? brush(CHIP_CARVE, 1, seed) : (struct chip){.value = {0.6, 0.7, 0.85}};

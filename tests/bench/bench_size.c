@@ -1,10 +1,11 @@
-/* What a large balloon takes of memory: a sphere is meshed, simulates 10 steps of the paper's settings, and a frame of it is
- * rendered, each by its program; its peak of memory in all and for each triangle.
+/* What a large balloon takes of memory: a sphere is meshed, simulates 10 steps of the paper's settings, and a
+ * frame of it is rendered, each by its program; its peak of memory in all and for each triangle.
  *
  *     bench_size BALLOON-SURFACE BALLOON-SIM SPHERE.OCT TRIANGLES...
  *
- * What does not grow with the mesh is in the least of the sizes: the last lines go on along the line through the last two to 20
- * million triangles, which must fit in 24 GB. On a machine that has them, give 20000000 as a size of its own. */
+ * What does not grow with the mesh is in the least of the sizes: the last lines go on along the line
+ * through the last two to 20 million triangles, which must fit in 24 GB. On a machine that has them, give
+ * 20000000 as a size of its own. */
 #include "support/bench_program.h"
 
 enum { STAGES = 3, SIZES_MAX = 16 };

@@ -1,12 +1,13 @@
-/* The simulator alone: full steps of springs, dampers and constant pressure, on one thread and on all; on the mesh that is given
- * and on icospheres. Bytes a triangle are those of the tables; bytes an edge those that a step moves, and GB/s at what rate on one thread. bench_step [MESH] */
+/* The simulator alone: full steps of springs, dampers and constant pressure, on one thread and on all; on the
+ * mesh that is given and on icospheres. Bytes a triangle are those of the tables; bytes an edge those that a
+ * step moves, and GB/s at what rate on one thread. bench_step [MESH] */
 #include "common/threads.h"
 #include "sim/sim.h"
 #include "support/bench.h"
 #include "support/shapes.h"
 
-/* The best of five runs: other programs only ever add to the time. One thread's time is its own on its processor; that of
- * several is the clock's. */
+/* The best of five runs: other programs only ever add to the time. One thread's time is its own on its
+ * processor; that of several is the clock's. */
 static double time_step(struct sim *sim, unsigned workers, long steps)
 {
     struct error err = {0};
@@ -46,8 +47,8 @@ static struct timing measure(const struct mesh *mesh, unsigned workers)
     return timing;
 }
 
-/* What one step must bring from memory or take there where nothing stays in a cache, once each: places and speeds both ways, masses,
- * forces and normals out, and what edges and triangles are. */
+/* What one step must bring from memory or take there where nothing stays in a cache, once each: places and
+ * speeds both ways, masses, forces and normals out, and what edges and triangles are. */
 static double bytes_moved(const struct mesh *mesh)
 {
     const struct sim *sim = NULL;

@@ -1,5 +1,5 @@
-/* What a surface costs, from a sculpture in memory to a mesh in memory, on one processor and on two. With FILE.oct
- * arguments these are measured instead. */
+/* What a surface costs, from a sculpture in memory to a mesh in memory, on one processor and on two. With
+ * FILE.oct arguments these are measured instead. */
 #include "common/random.h"
 #include "support/bench.h"
 #include "surface/surface.h"
@@ -127,7 +127,8 @@ static void measure_dials(const struct octree *tree)
     measure("balls, random seeds", tree, options);
 }
 
-/* How time and memory grow with the surface: the exponent in 1 / cube size, by least squares of the logarithms. */
+/* How time and memory grow with the surface: the exponent in 1 / cube size, by least
+ * squares of the logarithms. */
 static void measure_growth(const struct octree *tree)
 {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;

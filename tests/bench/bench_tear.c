@@ -1,4 +1,5 @@
-/* What a tear costs, at 5 thousand and 300 thousand triangles: a cut by itself, and steps before and while a pricked balloon bursts. */
+/* What a tear costs, at 5 thousand and 300 thousand triangles: a cut by itself, and steps before and while a
+ * pricked balloon bursts. */
 #include "common/vec3.h"
 #include "sim/fracture.h"
 #include "support/bench.h"

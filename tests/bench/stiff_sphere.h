@@ -1,4 +1,5 @@
-/* A sphere under pressure, one in twenty of whose springs is stiffer than the others by a contrast: what implicit methods are for. */
+/* A sphere under pressure, one in twenty of whose springs is stiffer than the others by a contrast: what
+ * implicit methods are for. */
 #ifndef TESTS_BENCH_STIFF_SPHERE_H
 #define TESTS_BENCH_STIFF_SPHERE_H
 

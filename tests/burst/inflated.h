@@ -1,5 +1,5 @@
-/* A balloon of rubber at a stretch, with the gas that holds it there. Units: radius, shear modulus, density and thickness are 1, so
- * that time is in radii over the speed of shear waves. */
+/* A balloon of rubber at a stretch, with the gas that holds it there. Units: radius, shear modulus, density
+ * and thickness are 1, so that time is in radii over the speed of shear waves. */
 #ifndef TESTS_BURST_INFLATED_H
 #define TESTS_BURST_INFLATED_H
 
@@ -120,7 +120,8 @@ static inline uint32_t root(uint32_t *parent, uint32_t i)
     return i;
 }
 
-/* Longest way through a piece from triangle to triangle, found from its far ends: two sweeps of shortest ways. */
+/* Longest way through a piece from triangle to triangle, found from its far ends: two
+ * sweeps of shortest ways. */
 static inline double length_of_piece(const struct sim_balloon *b, uint32_t start)
 {
     const uint32_t count = b->triangle_end;

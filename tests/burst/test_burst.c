@@ -37,8 +37,8 @@ static void pricked_at_high_stretch_it_goes_to_shreds(void **unused)
     assert_true(s.slenderness >= 3);
 }
 
-/* A crack that a prick starts goes both ways. At high stretch it divides again and again, and all of it comes from that one point; below, the
- * two tips are all there are. */
+/* A crack that a prick starts goes both ways. At high stretch it divides again and again, and all of it comes
+ * from that one point; below, the two tips are all there are. */
 static void pricked_at_high_stretch_many_cracks_run_from_one_point(void **unused)
 {
     (void)unused;
@@ -125,8 +125,8 @@ static void a_burst_goes_on_from_its_blocks(void **unused)
     deflate(&it);
 }
 
-/* No force from outside but the gas's: without gas and pressure, momentum stays what it was through a burst. Rounding: some 1000 steps
- * over 2600 points of 4 pi together, each to 2^-53 of about 1. */
+/* No force from outside but the gas's: without gas and pressure, momentum stays what it was through a burst.
+ * Rounding: some 1000 steps over 2600 points of 4 pi together, each to 2^-53 of about 1. */
 static void momentum_and_mass_are_kept_through_a_burst(void **unused)
 {
     (void)unused;

@@ -53,7 +53,8 @@ static void cuts_keep_mass_area_and_momentum(void **unused)
     const struct sums before = sums_of(&it);
     cut_anywhere(&it, 500);
     const struct sums after = sums_of(&it);
-    /* each point's mass is split in two with a rounding of 2^-53 of it, and a sum over n points rounds n times */
+    /* each point's mass is split in two with a rounding of 2^-53 of it, and a sum over
+     * n points rounds n times */
     const double rounding = 2000 * 0x1p-53 * before.mass;
     assert_near(after.mass, before.mass, rounding);
     for (int i = 0; i < 3; i++)

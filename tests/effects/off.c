@@ -1,5 +1,5 @@
-/* Runs the scene of all effects without one of them, or without all: off NAME STEPS. What it prints must not depend on whether this
- * program has the effect at all (meson.build builds it both ways). */
+/* Runs the scene of all effects without one of them, or without all: off NAME STEPS. What it prints must not
+ * depend on whether this program has the effect at all (meson.build builds it both ways). */
 #include "scene_of_all.h"
 
 #include <inttypes.h>

@@ -1,4 +1,5 @@
-/* A scene that calls for every effect there is, and the same with effects left out: three balloons that nothing brings near each other. */
+/* A scene that calls for every effect there is, and the same with effects left out: three balloons that
+ * nothing brings near each other. */
 #ifndef TESTS_EFFECTS_SCENE_OF_ALL_H
 #define TESTS_EFFECTS_SCENE_OF_ALL_H
 

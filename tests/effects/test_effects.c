@@ -1,8 +1,10 @@
-/* Effects do not disturb others: what is off is not there, what has no magnitude changes no bit, and what wakes or sleeps says so. */
+/* Effects do not disturb others: what is off is not there, what has no magnitude changes no bit, and what
+ * wakes or sleeps says so. */
 #include "../unit/balloon.h"
 #include "scene_of_all.h"
 
-/* The list of calls is the whole table: a new effect must be in it, and is then held to all that is asked here. */
+/* The list of calls is the whole table: a new effect must be in it, and is then held to
+ * all that is asked here. */
 static void every_effect_is_under_test(void **state)
 {
     (void)state;

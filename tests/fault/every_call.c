@@ -1,9 +1,9 @@
 /*
  * every_call LIBRARY MOST files|memory|starts[,lasting] PROGRAM ARGUMENT...
  *
- * Runs a command in the current folder once as it is, which tells how many calls it makes and what it leaves; then once for
- * each call, with that call failing (all after it too: lasting), the folder put back each time. Where there are more than MOST,
- * that many, evenly spread. What must hold:
+ * Runs a command in the current folder once as it is, which tells how many calls it makes and what it leaves;
+ * then once for each call, with that call failing (all after it too: lasting), the folder put back each time.
+ * Where there are more than MOST, that many, evenly spread. What must hold:
  *   - it ends with 0 and has done all, or with 1 and one message on one line, with the program's name in front;
  *   - every file is as it was or as it must become, and there is no other; after a 0 with a note in place of a message a
  *     file may differ from what it would have been, as the note tells.

@@ -40,8 +40,8 @@ static inline void assert_holds(const char *path, const struct bytes *wanted)
 
 typedef enum status faulty_save(const void *thing, const char *path, struct error *err);
 
-/* Each call of a writer fails in turn, over an old file and without one: there is the new file, whole, or a message
- * that names it and what was there before, and nothing beside it. */
+/* Each call of a writer fails in turn, over an old file and without one: there is the new file, whole, or a
+ * message that names it and what was there before, and nothing beside it. */
 static inline void check_save(faulty_save *save, const void *thing, const char *path)
 {
     struct error err = {0};

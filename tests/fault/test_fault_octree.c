@@ -4,8 +4,8 @@
 #include "faulty.h"
 #include "sculpt/history.h"
 
-/* One recorded operation on a copy of `start` with a call failing. What could not be done is taken back to the byte
- * where the tape is whole; what was done can be undone where it was kept. */
+/* One recorded operation on a copy of `start` with a call failing. What could not be done is taken back to
+ * the byte where the tape is whole; what was done can be undone where it was kept. */
 static void check_recorded(const struct octree *start, const struct octree *done, const struct chip *chip,
                            struct fault *fault)
 {

@@ -11,7 +11,8 @@ static const char script[] =
     "sandpaper .5 .5 .5 .5\nstep\nheat .4 .4 .4 .3\nstep\nundo\nundo\nredo\n"
     "material 4\ncoefficient 4 .5\nfill cone .1 .2 .3 .8 .7 .6 .1 .2\n";
 
-/* Reads a script and does it; what is begun with is a leaf of material 7, which stays in place of what fails. */
+/* Reads a script and does it; what is begun with is a leaf of material 7, which stays
+ * in place of what fails. */
 static enum status run_script(bool recorded, struct octree *tree, struct history *history, struct error *err)
 {
     struct chips chips = {0};

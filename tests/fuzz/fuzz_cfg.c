@@ -27,8 +27,8 @@ static void write_file(char *path, size_t room, int *file, const uint8_t *data, 
     snprintf(path, room, "/proc/self/fd/%d", *file);
 }
 
-/* A scene that was read can be checked and told again, and told again is the same. One that includes others is more than its
- * bytes, and left out. */
+/* A scene that was read can be checked and told again, and told again is the same. One that includes others
+ * is more than its bytes, and left out. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     struct error err = {0};

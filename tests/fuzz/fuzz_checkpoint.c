@@ -69,7 +69,8 @@ static bool open_sim(struct sim *sim, struct scene *scene, uint8_t method, unsig
     return opened;
 }
 
-/* The file that is to be read: the input itself, or a sound checkpoint with bytes changed as the input says. */
+/* The file that is to be read: the input itself, or a sound checkpoint with bytes
+ * changed as the input says. */
 static struct bytes make_file(struct sim *sim, const char *path, bool whole, const uint8_t *data, size_t size)
 {
     struct bytes file = {0};
@@ -87,8 +88,8 @@ static struct bytes make_file(struct sim *sim, const char *path, bool whole, con
     return file;
 }
 
-/* What was read can be stepped, and ends in numbers or in a message. Input: a method; bits for effects and, the first, for a whole file
- * that follows; or else edits: two bytes place, one byte to change it by. */
+/* What was read can be stepped, and ends in numbers or in a message. Input: a method; bits for effects and,
+ * the first, for a whole file that follows; or else edits: two bytes place, one byte to change it by. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     if (size < 2)

@@ -7,7 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Puts the right checksum behind every line that has the room, for else hardly any damage gets past the first. */
+/* Puts the right checksum behind every line that has the room, for else hardly any
+ * damage gets past the first. */
 static void mend_checksums(char *text, size_t size)
 {
     uint32_t sum = 0;
@@ -24,7 +25,8 @@ static void mend_checksums(char *text, size_t size)
 
 enum { DEPTH_MAX = 6 }; /* larger cubes only take longer to carve */
 
-/* False: a large cube. What reading takes is limited, what carving takes is not: somebody has done it before. */
+/* False: a large cube. What reading takes is limited, what carving takes is not:
+ * somebody has done it before. */
 static bool read_text(char *text, size_t size)
 {
     struct error err = {0};

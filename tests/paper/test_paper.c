@@ -1,9 +1,10 @@
 /*
- * The paper's section 4, claim by claim, on the paper's own road: one cube, one Gaussian, marching cubes, about 3000
- * triangles, springs of 20, dampers of 1, steps of 0.025 s, 400 of them.
+ * The paper's section 4, claim by claim, on the paper's own road: one cube, one Gaussian, marching cubes,
+ * about 3000 triangles, springs of 20, dampers of 1, steps of 0.025 s, 400 of them.
  *
- * The paper gives neither mass nor size. With 0.11 and a radius of 45 all its claims hold at once; the numbers below are
- * what that set gives here, with room for another compiler's rounding, which moves single pieces but not the story.
+ * The paper gives neither mass nor size. With 0.11 and a radius of 45 all its claims hold at once; the
+ * numbers below are what that set gives here, with room for another compiler's rounding, which moves single
+ * pieces but not the story.
  */
 #include "unit/check.h"
 
@@ -99,8 +100,9 @@ static void the_sphere_has_about_3000_polygons(void **state)
     assert_near(sphere.triangle_count, 3000, 150);
 }
 
-/* "a spring constant of 20.0 and an damping constant of 1.0 produced simulations that looked realistic"; "the balloon
- * must be allowed to expand before it explodes": seen, radius x 1.42 when the first 1 % of the edges have gone. */
+/* "a spring constant of 20.0 and an damping constant of 1.0 produced simulations that looked
+ * realistic"; "the balloon must be allowed to expand before it explodes": seen, radius x 1.42 when the
+ * first 1 % of the edges have gone. */
 static void the_balloon_expands_visibly_before_it_bursts(void **state)
 {
     (void)state;
@@ -109,7 +111,8 @@ static void the_balloon_expands_visibly_before_it_bursts(void **state)
     assert_in_range(story.breaking, 20, 60);
 }
 
-/* "usually produced a complete explosion animation in approximately 400 frames": seen, 95 % of the breaking by frame 251,
+/* "usually produced a complete explosion animation in approximately 400 frames": seen, 95 % of the
+ * breaking by frame 251,
  * 80 pieces, the largest 4 % of the skin. */
 static void the_burst_is_complete_within_400_frames(void **state)
 {
@@ -121,16 +124,16 @@ static void the_burst_is_complete_within_400_frames(void **state)
     assert_true(story.largest < 0.2);
 }
 
-/* "Spring constants higher than 20 resulted in unstable surfaces due to abnormal stretching of the point mesh which
- * produced premature explosions": seen, radius x 1.26. */
+/* "Spring constants higher than 20 resulted in unstable surfaces due to abnormal stretching of the point mesh
+ * which produced premature explosions": seen, radius x 1.26. */
 static void stiffer_springs_burst_prematurely(void **state)
 {
     (void)state;
     assert_true(TELL(sphere, "balloons[0].spring=40").radius < TELL(sphere).radius - 0.1);
 }
 
-/* "Damping constants greater than 1.0 resulted in an over compensation of the point velocities which produced unstable
- * surfaces as well": seen, radius x 1.17 at 1.5 and 1.08 at 2. */
+/* "Damping constants greater than 1.0 resulted in an over compensation of the point velocities which produced
+ * unstable surfaces as well": seen, radius x 1.17 at 1.5 and 1.08 at 2. */
 static void stronger_damping_bursts_prematurely(void **state)
 {
     (void)state;
@@ -142,8 +145,8 @@ static void stronger_damping_bursts_prematurely(void **state)
     assert_true(most < 1.15);
 }
 
-/* "selecting a threshold that is approximately twice the average resting length of the edges produces a realistic
- * simulation": at 1.5 the longest edges of the mesh go on the first frame. */
+/* "selecting a threshold that is approximately twice the average resting length of the edges produces a
+ * realistic simulation": at 1.5 the longest edges of the mesh go on the first frame. */
 static void a_low_threshold_bursts_prematurely(void **state)
 {
     (void)state;
@@ -152,15 +155,16 @@ static void a_low_threshold_bursts_prematurely(void **state)
     assert_true(story.radius < 1.1);
 }
 
-/* "if it expands too much, it will fill the viewing window": seen, radius x 1.7; this regular a mesh may then even hold. */
+/* "if it expands too much, it will fill the viewing window": seen, radius x 1.7; this regular a
+ * mesh may then even hold. */
 static void a_high_threshold_lets_it_grow_larger(void **state)
 {
     (void)state;
     assert_true(TELL(sphere, "balloons[0].threshold=2.5").radius > TELL(sphere).radius + 0.15);
 }
 
-/* "the pressure must be sufficiently large to cause the balloon to explode or else it will achieve a stable equilibrium
- * and remain inert": seen, nothing breaks at 4, .6 % at 5. */
+/* "the pressure must be sufficiently large to cause the balloon to explode or else it will achieve a stable
+ * equilibrium and remain inert": seen, nothing breaks at 4, .6 % at 5. */
 static void too_little_pressure_leaves_it_inert(void **state)
 {
     (void)state;
@@ -183,8 +187,8 @@ static void ten_times_the_pressure_leaves_small_particles(void **state)
     assert_true(story.broken_by < 100);
 }
 
-/* "If the interval was too large, then the Euler integration would create an unstable surface and polygons would fly
- * apart": seen, earlier already at .03; at .1 nothing is left after 5 frames. */
+/* "If the interval was too large, then the Euler integration would create an unstable surface and polygons
+ * would fly apart": seen, earlier already at .03; at .1 nothing is left after 5 frames. */
 static void too_large_a_step_makes_polygons_fly_apart(void **state)
 {
     (void)state;
@@ -194,15 +198,17 @@ static void too_large_a_step_makes_polygons_fly_apart(void **state)
     assert_true(story.broken_by < 10);
 }
 
-/* "if the time interval were too small, then it would take many frames before anything interesting would happen" */
+/* "if the time interval were too small, then it would take many frames before anything
+ * interesting would happen" */
 static void too_small_a_step_takes_many_frames(void **state)
 {
     (void)state;
     assert_true(TELL(sphere, "time.step=0.0025").breaking > 8 * TELL(sphere).breaking);
 }
 
-/* 4.1: "the surface is sufficiently symmetrical that the rips in the surface occur at many locations simultaneously [...]
- * the balloon resembles a disintegration rather than an explosion": seen, 192 pieces, none over .8 % of the skin. */
+/* 4.1: "the surface is sufficiently symmetrical that the rips in the surface occur at many locations
+ * simultaneously [...] the balloon resembles a disintegration rather than an explosion": seen, 192 pieces,
+ * none over .8 % of the skin. */
 static void the_regular_sphere_disintegrates(void **state)
 {
     (void)state;
@@ -211,8 +217,9 @@ static void the_regular_sphere_disintegrates(void **state)
     assert_true(story.largest < 0.02);
 }
 
-/* 4.1: "The artificial rip allows the surface to break up into larger pieces, resulting in a more realistic explosion":
- * at a pressure of 6, below the one at which it bursts by itself; seen, 29 pieces, the largest 33 % of the skin. */
+/* 4.1: "The artificial rip allows the surface to break up into larger pieces, resulting in a more
+ * realistic explosion": at a pressure of 6, below the one at which it bursts by itself; seen, 29 pieces,
+ * the largest 33 % of the skin. */
 static void an_artificial_rip_leaves_larger_pieces(void **state)
 {
     (void)state;

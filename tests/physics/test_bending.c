@@ -9,8 +9,9 @@
              "balloons[0].spring=0", "balloons[0].damping=0", "balloons[0].bending.stiffness=2", \
              "time.integrator=symplectic-euler", "time.end=1e6" __VA_OPT__(, ) __VA_ARGS__)
 
-/* A tube along z of radius 1: rings of `around` points, each turned by half a step against the last, so that triangles are equilateral
- * when it is unrolled. Turned: its triangles' sides run along z instead of around. */
+/* A tube along z of radius 1: rings of `around` points, each turned by half a step against the
+ * last, so that triangles are equilateral when it is unrolled. Turned: its triangles' sides run
+ * along z instead of around. */
 static void make_tube(struct mesh *mesh, uint32_t around, uint32_t along, bool turned)
 {
     const double side = 2 * M_PI / around / (turned ? sqrt(3) / 2 : 1),
@@ -49,7 +50,8 @@ static void open_tube(struct balloon *b, uint32_t around, uint32_t along, bool t
     assert_ok(sim_open(&b->sim, &b->scene, &b->mesh, 1, &err), &err);
 }
 
-/* Energy of a tube whose skin is flat at rest, over k/2 curvature^2 area. Rims have no hinges: the difference of two lengths has none. */
+/* Energy of a tube whose skin is flat at rest, over k/2 curvature^2 area. Rims have no hinges: the difference
+ * of two lengths has none. */
 static double tube_energy(uint32_t around, bool turned)
 {
     double energy[2], area[2];
@@ -63,8 +65,9 @@ static double tube_energy(uint32_t around, bool turned)
     return (energy[1] - energy[0]) / (STIFFNESS / 2 * (area[1] - area[0]));
 }
 
-/* Bent around any side of its triangles or across, a sheet holds k/2 curvature^2 area; the angles are off by the squares of the sides,
- * (2 pi/around)^2 = 7 % and 2 %, most of which goes out in the sum: at least four times less with half the sides. */
+/* Bent around any side of its triangles or across, a sheet holds k/2 curvature^2 area; the angles are off by
+ * the squares of the sides, (2 pi/around)^2 = 7 % and 2 %, most of which goes out in the sum: at least four
+ * times less with half the sides. */
 static void a_tube_holds_what_a_bent_plate_does(void **state)
 {
     (void)state;
@@ -77,8 +80,8 @@ static void a_tube_holds_what_a_bent_plate_does(void **state)
     }
 }
 
-/* A sphere, flat at rest: k/2 (1 + 1 - 2/3) 4 pi = 8/3 pi k, whatever its radius. An icosphere's triangles are within some 10 % of equilateral, and
- * their sum is right within the square of that. */
+/* A sphere, flat at rest: k/2 (1 + 1 - 2/3) 4 pi = 8/3 pi k, whatever its radius. An icosphere's triangles
+ * are within some 10 % of equilateral, and their sum is right within the square of that. */
 static void a_sphere_holds_the_same_at_any_size(void **state)
 {
     (void)state;
@@ -94,9 +97,10 @@ static void a_sphere_holds_the_same_at_any_size(void **state)
     }
 }
 
-/* A ring that nothing stretches swings as x = (1 + e cos 2a) does: w^2 = k n^2 (n^2 - 1)^2/((n^2 + 1) m), n = 2, of a skin with the mass m
- * an area and radius 1 (Rayleigh, Theory of Sound, 233). Springs 1000 times as stiff keep its length. Of a tube with rims, hinges
- * along z alone count: bent as a plate, but for the edges that rims lack, which the area of the hinges leaves out too. */
+/* A ring that nothing stretches swings as x = (1 + e cos 2a) does: w^2 = k n^2 (n^2 - 1)^2/((n^2 + 1) m), n =
+ * 2, of a skin with the mass m an area and radius 1 (Rayleigh, Theory of Sound, 233). Springs 1000 times as
+ * stiff keep its length. Of a tube with rims, hinges along z alone count: bent as a plate, but for the edges
+ * that rims lack, which the area of the hinges leaves out too. */
 static void a_ring_swings_as_rayleigh_says(void **state)
 {
     (void)state;

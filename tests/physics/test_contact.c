@@ -1,4 +1,5 @@
-/* Skins that keep apart: against a look at all pairs, at the end of every step of scenes that fold, squeeze and collide. */
+/* Skins that keep apart: against a look at all pairs, at the end of every step of scenes that
+ * fold, squeeze and collide. */
 #include "crossings.h"
 #include "sim/contact.h"
 #include "two_skins.h"
@@ -71,7 +72,8 @@ static void test_two_balloons_thrown_together_keep_apart_and_keep_their_momentum
     close_scene(&s);
 }
 
-/* Thrown against a balloon that is pinned at the side that is hit: what is held stays to the bit, and nothing crosses. */
+/* Thrown against a balloon that is pinned at the side that is hit: what is held stays to the
+ * bit, and nothing crosses. */
 static void test_contact_does_not_move_what_pins_hold(void **state)
 {
     (void)state;
@@ -95,7 +97,8 @@ static void test_contact_does_not_move_what_pins_hold(void **state)
     close_scene(&s);
 }
 
-/* Edges through triangles, but for those that meet at one place, as the two lips of a cut do when it opens. */
+/* Edges through triangles, but for those that meet at one place, as the two lips of
+ * a cut do when it opens. */
 static size_t crossings_but_at_new_cuts(const struct sim *sim)
 {
     size_t count = 0;

@@ -27,8 +27,8 @@ static unsigned char *find_joined(const struct sim *sim)
     return joined;
 }
 
-/* Whether two features end the step nearer to each other than skins are to come. Not those that share a point or that an edge joins: they may be of
- * a patch that looks to one side, and nothing more is asked of it. */
+/* Whether two features end the step nearer to each other than skins are to come. Not those that share a point
+ * or that an edge joins: they may be of a patch that looks to one side, and nothing more is asked of it. */
 static bool is_near(const struct sim *sim, const unsigned char *joined, enum ccd_kind kind,
                     const uint32_t p[4])
 {
@@ -71,7 +71,8 @@ static size_t near_and_unlisted(struct sim *sim, size_t *near)
     return missing;
 }
 
-/* Whatever lists, lines, strays and boxes say: all that is near is on the list, at the end of every step, while lists are made and mended. */
+/* Whatever lists, lines, strays and boxes say: all that is near is on the list, at the end of every step,
+ * while lists are made and mended. */
 static void test_the_list_has_all_that_is_near(void **state)
 {
     (void)state;
@@ -107,8 +108,8 @@ static bool comes_too_near(double thickness, enum ccd_kind kind, const struct co
     return near;
 }
 
-/* Most pairs are not looked at again after a push, or not at all: when a step has ended none of those on the list comes too near on its way, whether it
- * was looked at or not. */
+/* Most pairs are not looked at again after a push, or not at all: when a step has ended none of those on the
+ * list comes too near on its way, whether it was looked at or not. */
 static void test_what_is_not_looked_at_does_not_touch(void **state)
 {
     (void)state;
@@ -132,8 +133,9 @@ static void test_what_is_not_looked_at_does_not_touch(void **state)
     close_scene(&s);
 }
 
-/* Eight at a time and in single precision, near the place that all is seen from and far from it: no pair that comes nearer than the gap in a fine march
- * along its way is left out, and none is further apart than said; most that do not come near are left out. */
+/* Eight at a time and in single precision, near the place that all is seen from and far from it: no pair that
+ * comes nearer than the gap in a fine march along its way is left out, and none is further apart than said;
+ * most that do not come near are left out. */
 static void check_kernels(const struct contact_kernels *kernels, double origin, enum ccd_kind kind)
 {
     enum { PAIRS = 64 };
@@ -190,8 +192,8 @@ static void test_the_inner_loops_leave_nothing_out(void **state)
     close_scene(&s);
 }
 
-/* A point through a triangle, edge over edge, by ways of every length and tilt: whenever a fine march along the ways sees the distance fall
- * under the gap, ccd_meet() says so, and before that time. */
+/* A point through a triangle, edge over edge, by ways of every length and tilt: whenever a fine march along
+ * the ways sees the distance fall under the gap, ccd_meet() says so, and before that time. */
 static void test_a_meeting_is_never_missed(void **state)
 {
     (void)state;

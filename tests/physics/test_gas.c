@@ -49,8 +49,8 @@ static void sealed_gas_keeps_to_its_law(void **state)
     }
 }
 
-/* What the pressure does on the skin is what the gas loses: force . dx = -dE, by central differences over 1e-5 of the radius: the third derivative's
- * share is (1e-5)^2, rounding 1e-16/1e-5. */
+/* What the pressure does on the skin is what the gas loses: force . dx = -dE, by central differences over
+ * 1e-5 of the radius: the third derivative's share is (1e-5)^2, rounding 1e-16/1e-5. */
 static void its_push_is_the_derivative_of_its_energy(void **state)
 {
     (void)state;
@@ -77,8 +77,8 @@ static void its_push_is_the_derivative_of_its_energy(void **state)
     }
 }
 
-/* A rigid vessel (heavy points): N falls as exp(-leak pa t/V) towards what is in balance, with an error of the method's: dt k/2 of symplectic Euler,
- * k t = 1, in 200 steps: .5/200. */
+/* A rigid vessel (heavy points): N falls as exp(-leak pa t/V) towards what is in balance, with an error of
+ * the method's: dt k/2 of symplectic Euler, k t = 1, in 200 steps: .5/200. */
 static void a_slow_leak_decays_exponentially(void **state)
 {
     (void)state;
@@ -110,8 +110,8 @@ static void a_pump_stops_where_it_should(void **state)
     close_balloon(&b);
 }
 
-/* Drawn out at 1.5 of a fill a second, 2 become 1.85 in a tenth; in a vessel that gives way to nothing it ends at the air's pressure, which the rest
- * nears by a half in each step. */
+/* Drawn out at 1.5 of a fill a second, 2 become 1.85 in a tenth; in a vessel that gives way to nothing it
+ * ends at the air's pressure, which the rest nears by a half in each step. */
 static void a_pump_that_is_turned_round_draws_gas_out_down_to_the_airs_pressure(void **state)
 {
     (void)state;
@@ -123,7 +123,8 @@ static void a_pump_that_is_turned_round_draws_gas_out_down_to_the_airs_pressure(
     assert_near(look(&b).amount, 1.85 * full, 1e-12 * full);
     assert_near(look(&b).brought, -0.15 * full, 1e-12 * full);
     steps(&b, 300);
-    /* A force of some 20 x 150 moves 1e9 in 1.6 s by 4e-6, the volume by 3 x that/45, and 10 of pressure by as much of itself. */
+    /* A force of some 20 x 150 moves 1e9 in 1.6 s by 4e-6, the volume by 3 x that/45, and 10 of
+     * pressure by as much of itself. */
     assert_near(look(&b).gauge_pressure, 0, 3e-6);
     close_balloon(&b);
 }
@@ -146,8 +147,9 @@ static void the_schedule_turns_the_pump(void **state)
     close_balloon(&b);
 }
 
-/* The textbook's numbers for air: the flow into nothing is choked, with p sqrt(gamma/(r p)) (2/2.4)^3 of flux; just above the ratio .52828 it no
- * longer is; and gentle flow is Bernoulli's, sqrt(2 r dp), to the share of dp/p in compression (3/4 gamma of it, Shapiro). */
+/* The textbook's numbers for air: the flow into nothing is choked, with p sqrt(gamma/(r p)) (2/2.4)^3 of
+ * flux; just above the ratio .52828 it no longer is; and gentle flow is Bernoulli's, sqrt(2 r dp), to the
+ * share of dp/p in compression (3/4 gamma of it, Shapiro). */
 static void openings_let_out_what_shapiro_says(void **state)
 {
     (void)state;
@@ -161,8 +163,9 @@ static void openings_let_out_what_shapiro_says(void **state)
     assert_near(gentle.thrust, 0.6 * 2 * 100, 120 * 1e-3);
 }
 
-/* It empties through a neck of 30 at the bottom, choked at first, and flies off. What it gains in momentum is the sum of the thrusts, to the
- * rounding of the springs' forces, which cancel; and nothing pushes it while it draws in air, as its skin swings back. */
+/* It empties through a neck of 30 at the bottom, choked at first, and flies off. What it gains in momentum is
+ * the sum of the thrusts, to the rounding of the springs' forces, which cancel; and nothing pushes it while
+ * it draws in air, as its skin swings back. */
 static void an_open_neck_makes_it_fly(void **state)
 {
     (void)state;
@@ -191,8 +194,9 @@ static void an_open_neck_makes_it_fly(void **state)
     close_balloon(&b);
 }
 
-/* Choked all the time, at constant temperature, out of a rigid vessel into nearly nothing, the amount falls exponentially: flux is in proportion to the pressure.
- * dN/dt = -C A sqrt(gamma pa/r) (2/(gamma + 1))^((gamma + 1)/(2 (gamma - 1))) N/V. The method's error is k dt/2 of it. */
+/* Choked all the time, at constant temperature, out of a rigid vessel into nearly nothing, the amount falls
+ * exponentially: flux is in proportion to the pressure. dN/dt = -C A sqrt(gamma pa/r) (2/(gamma + 1))^((gamma
+ * + 1)/(2 (gamma - 1))) N/V. The method's error is k dt/2 of it. */
 static void a_choked_neck_empties_exponentially(void **state)
 {
     (void)state;
@@ -209,8 +213,9 @@ static void a_choked_neck_empties_exponentially(void **state)
     close_balloon(&b);
 }
 
-/* Two equal balloons, one of them fuller: what flows over is never lost, they end alike, and the fuller one never the emptier: pressures within
- * a thousandth after 2 s (they even out with sqrt(2 dp/r), in about V dp/(C A sqrt(..) p), a twentieth of a second). */
+/* Two equal balloons, one of them fuller: what flows over is never lost, they end alike, and the fuller one
+ * never the emptier: pressures within a thousandth after 2 s (they even out with sqrt(2 dp/r), in about V
+ * dp/(C A sqrt(..) p), a twentieth of a second). */
 static void a_tube_evens_two_balloons_out(void **state)
 {
     (void)state;
@@ -246,8 +251,8 @@ static void a_tube_evens_two_balloons_out(void **state)
     scene_clear(&scene);
 }
 
-/* The prick: a tear of the paper's kind opens nothing that gas could get out of; but rims do. A square hole of four triangles' sides lets it out until the
- * skin is open so wide that all is gone. */
+/* The prick: a tear of the paper's kind opens nothing that gas could get out of; but rims do. A square hole
+ * of four triangles' sides lets it out until the skin is open so wide that all is gone. */
 static void a_hole_lets_it_out(void **state)
 {
     (void)state;
@@ -274,8 +279,8 @@ static void a_hole_lets_it_out(void **state)
     close_balloon(&b);
 }
 
-/* The balance of energies, with everything that gas can do; its error falls with the method's order (RK4: 16 at half the step; 10 leaves room for
- * the next order). */
+/* The balance of energies, with everything that gas can do; its error falls with the method's order (RK4: 16
+ * at half the step; 10 leaves room for the next order). */
 static double balance_error(const char *step, const char *more, const char *again, double *scale)
 {
     struct sim_measures end;
@@ -322,8 +327,8 @@ static void any_number_of_threads_gives_the_same_bits(void **state)
     assert_true(hash[0] == hash[1] && hash[0] == hash[2]);
 }
 
-/* A skin that goes in one step closes nothing, and the pressure of what it held would have no end. The books count what there was: they are never without a
- * number, and neither are those of gas that is gone. */
+/* A skin that goes in one step closes nothing, and the pressure of what it held would have no end. The books
+ * count what there was: they are never without a number, and neither are those of gas that is gone. */
 static void gas_whose_skin_goes_at_once_has_an_energy(void **state)
 {
     (void)state;

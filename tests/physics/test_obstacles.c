@@ -1,4 +1,5 @@
-/* Ground, spheres, boxes and needles: nothing ends a step inside, friction holds and slides at its angle, needles find the skin. */
+/* Ground, spheres, boxes and needles: nothing ends a step inside, friction holds and slides at its angle,
+ * needles find the skin. */
 #include "../unit/balloon.h"
 #include "common/random.h"
 #include "sim/obstacles.h"
@@ -39,8 +40,8 @@ static void test_no_way_ends_inside(void **state)
     assert_true(met > 10000);
 }
 
-/* A mass on a slope of 30 degrees, moved by v += g dt, x += v dt. It sticks while the friction is above tan 30 = .577; below, it slides
- * with g (sin a - mu cos a), of which each step adds exactly that times dt. */
+/* A mass on a slope of 30 degrees, moved by v += g dt, x += v dt. It sticks while the friction is above tan
+ * 30 = .577; below, it slides with g (sin a - mu cos a), of which each step adds exactly that times dt. */
 static double slide(double friction, int steps, double dt)
 {
     const double angle = acos(-1) / 6, g = 10;
@@ -134,8 +135,8 @@ static void test_far_ground_changes_no_bit(void **state)
     close_balloon(&without);
 }
 
-/* Steps in which nothing can be met need not look; a balloon that falls from afar on a ball beside the ground meets both as one that looks at
- * each step does, to the bit. */
+/* Steps in which nothing can be met need not look; a balloon that falls from afar on a ball beside the ground
+ * meets both as one that looks at each step does, to the bit. */
 static void test_what_is_far_is_met_as_if_each_step_had_looked(void **state)
 {
     (void)state;
@@ -160,7 +161,8 @@ static void test_what_is_far_is_met_as_if_each_step_had_looked(void **state)
     close_balloon(&b[1]);
 }
 
-/* The way of a balloon past each kind of obstacle, by boxes of places that it holds: never nearer than the gap says. */
+/* The way of a balloon past each kind of obstacle, by boxes of places that it holds: never
+ * nearer than the gap says. */
 static void test_a_gap_is_no_wider_than_it_is(void **state)
 {
     (void)state;

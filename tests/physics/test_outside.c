@@ -31,8 +31,8 @@ static void what_falls_falls_by_half_g_t_squared(void **state)
     close_balloon(&b);
 }
 
-/* Archimedes: the whole force is (air - gas) V g upwards, whatever the shape, and the weight of the skin against it; to the rounding of pressures
- * of 20 on areas of some 100. */
+/* Archimedes: the whole force is (air - gas) V g upwards, whatever the shape, and the weight of the skin
+ * against it; to the rounding of pressures of 20 on areas of some 100. */
 static void light_gas_lifts_by_the_weight_of_the_air_less_its_own(void **state)
 {
     (void)state;
@@ -58,8 +58,9 @@ static void light_gas_lifts_by_the_weight_of_the_air_less_its_own(void **state)
     close_balloon(&b);
 }
 
-/* A stiff sphere falls until drag holds its weight: M g = r C/2 v^2 sum A |n_y|^3, which here is taken from the mesh, so only springs that give can differ: its
- * shape, by g m/k of a radius, 1e-5, and the last of the approach, exp(-2 g t/v) of v: below 1e-6 from t = 7 v/g on. */
+/* A stiff sphere falls until drag holds its weight: M g = r C/2 v^2 sum A |n_y|^3, which here is taken from
+ * the mesh, so only springs that give can differ: its shape, by g m/k of a radius, 1e-5, and the last of the
+ * approach, exp(-2 g t/v) of v: below 1e-6 from t = 7 v/g on. */
 static void what_falls_in_air_reaches_its_terminal_speed(void **state)
 {
     (void)state;
@@ -91,7 +92,8 @@ static void what_falls_in_air_reaches_its_terminal_speed(void **state)
     close_balloon(&b);
 }
 
-/* It is carried along until it is as fast as the wind: from rest, dv/dt = c (w - v)^2, w - v = w/(1 + c w t) with the c of the fall above. */
+/* It is carried along until it is as fast as the wind: from rest, dv/dt = c (w - v)^2, w - v = w/(1 + c w t)
+ * with the c of the fall above. */
 static void wind_carries_it_along(void **state)
 {
     (void)state;
@@ -108,8 +110,9 @@ static void wind_carries_it_along(void **state)
     close_balloon(&b);
 }
 
-/* Air and skin share a point's force: which comes first must not depend on how points are shared out. A sphere of several chunks (parts.c), whose
- * neighbours are far from each other in the tables, goes through springs, through arms that xpbd adds, and is pressed by area. */
+/* Air and skin share a point's force: which comes first must not depend on how points are shared out. A
+ * sphere of several chunks (parts.c), whose neighbours are far from each other in the tables, goes through
+ * springs, through arms that xpbd adds, and is pressed by area. */
 static void wind_is_the_same_to_the_bit_on_any_number_of_workers(void **state)
 {
     (void)state;
@@ -164,8 +167,8 @@ static void pins_hold_until_they_let_go(void **state)
     }
 }
 
-/* A balloon on a string in the wind of its own weight: it hangs from the string's end with the tension M g, the string longer by M g/k: after the swinging has
- * died down by damping, to a thousandth. */
+/* A balloon on a string in the wind of its own weight: it hangs from the string's end with the tension M g,
+ * the string longer by M g/k: after the swinging has died down by damping, to a thousandth. */
 static void it_hangs_on_its_string(void **state)
 {
     (void)state;
@@ -195,7 +198,8 @@ static void it_hangs_on_its_string(void **state)
     close_balloon(&b);
 }
 
-/* With a weight at the end, nothing outside but gravity acts: weight and balloon fall together by half g t^2, taut or slack, to rounding. */
+/* With a weight at the end, nothing outside but gravity acts: weight and balloon fall together by half g t^2,
+ * taut or slack, to rounding. */
 static void a_weight_and_its_balloon_fall_as_one(void **state)
 {
     (void)state;
@@ -214,8 +218,8 @@ static void a_weight_and_its_balloon_fall_as_one(void **state)
     close_balloon(&b);
 }
 
-/* The balance of energies with all of them at once falls with RK4's order (10 of 16 leaves room for the next). A string goes slack only where it was never taut
- * here: that kink would cost an order. */
+/* The balance of energies with all of them at once falls with RK4's order (10 of 16 leaves room for the
+ * next). A string goes slack only where it was never taut here: that kink would cost an order. */
 static double balance_error(const char *step, double *scale)
 {
     struct sim_measures end;

@@ -1,9 +1,11 @@
 /*
- * A band that is stretched, held at both ends, and cut off one of them: it flies back, unloaded behind a shock that runs into it.
+ * A band that is stretched, held at both ends, and cut off one of them: it flies back, unloaded behind a
+ * shock that runs into it.
  *
- * Units: shear modulus, density and thickness are 1, lengths are the band's at rest. At the stretch L it pulls with the nominal stress s = L - L^-2. A shock at
- * the speed c, in lengths at rest, leaves rubber at rest in itself behind that moves at v: its momentum grows by s = c v, and its stretch
- * changes from L to 1 by c (L - 1) = v. So v = sqrt((L - L^-2) (L - 1)).
+ * Units: shear modulus, density and thickness are 1, lengths are the band's at rest. At the stretch L it
+ * pulls with the nominal stress s = L - L^-2. A shock at the speed c, in lengths at rest, leaves rubber at
+ * rest in itself behind that moves at v: its momentum grows by s = c v, and its stretch changes from L to 1
+ * by c (L - 1) = v. So v = sqrt((L - L^-2) (L - 1)).
  */
 #include "common/vec3.h"
 #include "sim/topology.h"
@@ -54,7 +56,8 @@ static void open_band(struct balloon *b, uint32_t cells)
     assert_ok(sim_open(&b->sim, &b->scene, &b->mesh, 1, &err), &err);
 }
 
-/* Pulled along x alone, so that it is narrower across by L^-1/2, and held at its first end. The band's middle is at 0. */
+/* Pulled along x alone, so that it is narrower across by L^-1/2, and held at its first end. The
+ * band's middle is at 0. */
 static void stretch(struct balloon *b, double by)
 {
     struct sim *sim = &b->sim;
@@ -80,7 +83,8 @@ static void cut(struct balloon *b, double x)
         }
 }
 
-/* Where the loose end is: the points of the cut that the band has kept, those of triangles to the left of it. */
+/* Where the loose end is: the points of the cut that the band has kept, those of
+ * triangles to the left of it. */
 static double loose_end(const struct balloon *b, double x)
 {
     const struct sim *sim = &b->sim;

@@ -21,7 +21,8 @@ static void scale(struct sim *sim, double to)
             sim->position[p][i] *= to / mean;
 }
 
-/* By virtual work: growing by dL in all directions, the skin takes -f . x dL/L and the pressure gives 3 p V dL/L. */
+/* By virtual work: growing by dL in all directions, the skin takes -f . x dL/L and the
+ * pressure gives 3 p V dL/L. */
 static double pressure_of(struct sim *sim)
 {
     sim_forces(sim);
@@ -43,8 +44,8 @@ static double neo_hookean(double stretch)
     return 2 * (1 / stretch - pow(stretch, -7));
 }
 
-/* A pressure that holds a volume, p = stiffness x (volume - V), along each triangle's area vector: a third to each corner. And a drag that
- * lets the sphere come to rest. */
+/* A pressure that holds a volume, p = stiffness x (volume - V), along each triangle's area vector: a third to
+ * each corner. And a drag that lets the sphere come to rest. */
 static double held_volume, held_stiffness, held_pressure;
 
 static void hold_volume(struct sim *sim, struct sim_balloon *balloon)
@@ -101,8 +102,8 @@ static double error_at_rest(unsigned level, double stretch)
     return error;
 }
 
-/* The polyhedron's area over its volume errs by the square of its edges: .39 % at 1280 triangles, .1 % at 5120. Both stable below the limit
- * point and held past it by the volume. */
+/* The polyhedron's area over its volume errs by the square of its edges: .39 % at 1280 triangles, .1 % at
+ * 5120. Both stable below the limit point and held past it by the volume. */
 static void a_sphere_follows_the_curve_of_neo_hookean_rubber(void **state)
 {
     (void)state;
@@ -138,8 +139,8 @@ static double extremum(struct sim *sim, double low, double high, double sign)
     return (low + high) / 2;
 }
 
-/* p* and L of the limit points; mu is 2 (C1 + C2) of Mooney-Rivlin's, with C2 = .1 C1, and half the sum of m alpha of Ogden's. The mesh
- * errs by .1 % in pressure, and not at all in stretch. */
+/* p* and L of the limit points; mu is 2 (C1 + C2) of Mooney-Rivlin's, with C2 = .1 C1, and half the sum of m
+ * alpha of Ogden's. The mesh errs by .1 % in pressure, and not at all in stretch. */
 static void every_law_has_its_limit_points(void **state)
 {
     (void)state;
@@ -250,8 +251,9 @@ static void make_tube(struct mesh *mesh, uint32_t around, uint32_t along, double
         abort();
 }
 
-/* Forces of the tube when its rings are stretched by `hoop` and it by `axial`: the pressure that its rings ask for, by the virtual work of
- * one that grows, and the one that its end caps ask for, the pull of a rim over the cap. */
+/* Forces of the tube when its rings are stretched by `hoop` and it by `axial`: the pressure that its
+ * rings ask for, by the virtual work of one that grows, and the one that its end caps ask for, the pull
+ * of a rim over the cap. */
 static void tube_pressures(struct sim *sim, double (*rest)[4], uint32_t around, double length, double hoop,
                            double axial, double *by_rings, double *by_caps)
 {
@@ -271,8 +273,8 @@ static void tube_pressures(struct sim *sim, double (*rest)[4], uint32_t around, 
     *by_caps = pull / section / THICKNESS;
 }
 
-/* A long closed tube: where rings and caps ask for the same pressure, its largest is .7499 at the stretches 1.577 and 1.178. Polygons of 96
- * sides err by 1 - cos(pi/96) = .05 %. */
+/* A long closed tube: where rings and caps ask for the same pressure, its largest is .7499 at the stretches
+ * 1.577 and 1.178. Polygons of 96 sides err by 1 - cos(pi/96) = .05 %. */
 static void a_long_tube_has_its_limit_point(void **state)
 {
     (void)state;

@@ -14,8 +14,8 @@ static double cotangent(const struct mesh *mesh, uint32_t at, uint32_t a, uint32
     return vec3_dot(u, v) / vec3_length(cross);
 }
 
-/* A square of SIDE x SIDE cells whose inner points are off their places by up to .2 of a cell; each cell is cut along the diagonal that has the
- * larger angles beside it. */
+/* A square of SIDE x SIDE cells whose inner points are off their places by up to .2 of a cell; each cell is
+ * cut along the diagonal that has the larger angles beside it. */
 static void make_sheet(struct mesh *mesh)
 {
     uint64_t random = 17;
@@ -39,8 +39,8 @@ static void make_sheet(struct mesh *mesh)
         abort();
 }
 
-/* The rim is held at the stretch 1.5, the inside let go from anywhere near, until it is at rest: standard deviation of the stretch of edges over
- * its mean. */
+/* The rim is held at the stretch 1.5, the inside let go from anywhere near, until it is at rest: standard
+ * deviation of the stretch of edges over its mean. */
 static double spread(const char *stiffness)
 {
     struct balloon b;
@@ -76,8 +76,9 @@ static double spread(const char *stiffness)
     return sqrt(fmax(variance, 0)) / mean;
 }
 
-/* Even stretch is the exact state of rest of a flat sheet, but where a diagonal has angles beside it that the cotangents cannot balance: 0 in
- * place of a negative sum. With one constant for all springs the same sheet is uneven by percents. */
+/* Even stretch is the exact state of rest of a flat sheet, but where a diagonal has angles beside it that the
+ * cotangents cannot balance: 0 in place of a negative sum. With one constant for all springs the same sheet
+ * is uneven by percents. */
 static void an_even_pull_stretches_an_irregular_sheet_evenly(void **state)
 {
     (void)state;
@@ -101,7 +102,8 @@ static void regular_triangles_have_the_scenes_constant(void **state)
     close_balloon(&b);
 }
 
-/* Each edge's threshold over its own rest length: all of an evenly stretched balloon let go at once, and none before. */
+/* Each edge's threshold over its own rest length: all of an evenly stretched balloon let go at
+ * once, and none before. */
 static void thresholds_may_be_each_edges_own(void **state)
 {
     (void)state;

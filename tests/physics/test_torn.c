@@ -1,4 +1,5 @@
-/* What a burst keeps, and where its energy goes: balloons of rubber with gas, pricked (burst/inflated.h has their units). */
+/* What a burst keeps, and where its energy goes: balloons of rubber with gas, pricked
+ * (burst/inflated.h has their units). */
 #include "burst/inflated.h"
 #include "sim/gas.h"
 #include "sim/ledger.h"
@@ -29,8 +30,9 @@ static void momentum_of(const struct inflated *it, double momentum[3])
             momentum[i] += it->sim.mass[p] * it->sim.velocity[p][i];
 }
 
-/* The force of gas and air on the skin: a closed skin feels none. Of an open one the pressure p - pa misses on the holes' areas S
- * (inwards), so that it leaves (p - pa) S; and of what streams out the jet's reaction takes its place (Saint-Venant & Wantzel 1839). */
+/* The force of gas and air on the skin: a closed skin feels none. Of an open one the pressure p - pa misses
+ * on the holes' areas S (inwards), so that it leaves (p - pa) S; and of what streams out the jet's reaction
+ * takes its place (Saint-Venant & Wantzel 1839). */
 static void push_of_gas_and_air(struct inflated *it, double force[3])
 {
     sim_forces(&it->sim);
@@ -55,7 +57,8 @@ static void push_of_gas_and_air(struct inflated *it, double force[3])
             force[i] += push * gas->holes.area[h][i];
 }
 
-/* Rounding: in each of some 1000 steps 2600 points' forces of up to .1, to 2^-53 of them, times a step of .01: 1e-12 is generous. */
+/* Rounding: in each of some 1000 steps 2600 points' forces of up to .1, to 2^-53 of them, times a step of
+ * .01: 1e-12 is generous. */
 static void mass_area_and_momentum_are_kept(void **unused)
 {
     (void)unused;
@@ -119,8 +122,9 @@ static struct account account_of_burst(double stretch, double step)
     return a;
 }
 
-/* From the prick until the gas is gone and the skin has flown back: first order's error, a quarter of it with a quarter of the step, were it the same burst; cuts come at
- * other times then, hence .7. Cuts take nothing from the skin, and the dampers have taken what the cracks asked for. */
+/* From the prick until the gas is gone and the skin has flown back: first order's error, a quarter of it with
+ * a quarter of the step, were it the same burst; cuts come at other times then, hence .7. Cuts take nothing
+ * from the skin, and the dampers have taken what the cracks asked for. */
 static void the_ledger_balances_through_a_burst(void **unused)
 {
     (void)unused;
@@ -153,8 +157,9 @@ static void keeping_accounts_changes_no_bit_of_a_burst(void **unused)
     assert_true(hash[0] == hash[1]);
 }
 
-/* By the hole's area and the volume as they were, and Bernoulli's jet, C A sqrt(2 r dp): it errs from the compressible one by about dp/pa, a twentieth.
- * The balloon is open and even with the air when its hole is wider than 2 R^2: the law, for gas at rest inside, is slower than that. */
+/* By the hole's area and the volume as they were, and Bernoulli's jet, C A sqrt(2 r dp): it errs from the
+ * compressible one by about dp/pa, a twentieth. The balloon is open and even with the air when its hole is
+ * wider than 2 R^2: the law, for gas at rest inside, is slower than that. */
 static void pressure_falls_as_fast_as_the_orifice_lets_it(void **unused)
 {
     (void)unused;

@@ -1,5 +1,6 @@
-/* Two rubber balloons joined by a tube, both blown up past the limit point: the smaller one has the higher pressure and empties into the larger
- * (for instance Mueller and Strehlow, Rubber and Rubber Balloons, 2004). */
+/* Two rubber balloons joined by a tube, both blown up past the limit point: the smaller one has
+ * the higher pressure and empties into the larger (for instance Mueller and Strehlow, Rubber and
+ * Rubber Balloons, 2004). */
 #include "common/vec3.h"
 #include "sim/gas.h"
 #include "sim/guard.h"
@@ -119,8 +120,9 @@ static void the_smaller_shrinks_and_the_larger_grows(void **state)
     close_pair(&pair);
 }
 
-/* What has flown by 1 s, with tubes through which the gas, which is stiff, comes to even pressures in some thousandths of a second: a difference of pressures
- * moves little gas, and the skins yield to it slowly. Where steps are too long for that, the guard says so and splits them. */
+/* What has flown by 1 s, with tubes through which the gas, which is stiff, comes to even pressures in some
+ * thousandths of a second: a difference of pressures moves little gas, and the skins yield to it slowly.
+ * Where steps are too long for that, the guard says so and splits them. */
 static double flown(const char *area, const char *integrator, const char *step, bool *split)
 {
     struct pair pair;
@@ -154,7 +156,8 @@ static void what_flows_converges_with_the_step(void **state)
     }
 }
 
-/* Ten times as wide, and steps ten times as long as that can be followed in: the result is that of short ones, to Euler's error of .02 % there. */
+/* Ten times as wide, and steps ten times as long as that can be followed in: the result is that of short
+ * ones, to Euler's error of .02 % there. */
 static void the_guard_splits_what_a_tube_is_too_fast_for(void **state)
 {
     (void)state;
@@ -192,7 +195,8 @@ static void what_is_held_back_is_told_once(void **state)
     }
 }
 
-/* Where the other balloon has burst, the tube ends in the air: what is joined to it empties, and nothing is lost from the books. */
+/* Where the other balloon has burst, the tube ends in the air: what is joined to it empties, and nothing
+ * is lost from the books. */
 static void a_tube_to_what_has_burst_ends_in_the_air(void **state)
 {
     (void)state;

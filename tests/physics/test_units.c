@@ -1,7 +1,8 @@
-/* The units of the paper's figure 1 in series and in parallel: creep, relaxation and slip against their closed forms.
+/* The units of the paper's figure 1 in series and in parallel: creep, relaxation and slip
+ * against their closed forms.
  *
- * An icosahedron that swells is one spring: all edges have the length c R, and with a pull T in each the five at a point hold 5 T c/2 against the
- * pressure's force P. Points are light, so that nothing swings. */
+ * An icosahedron that swells is one spring: all edges have the length c R, and with a pull T in each the five
+ * at a point hold 5 T c/2 against the pressure's force P. Points are light, so that nothing swings. */
 #include "unit/books.h"
 #include "unit/differences.h"
 
@@ -35,8 +36,8 @@ static void run_to(struct balloon *b, double time)
         steps(b, 1);
 }
 
-/* Spring and dashpot side by side (Kelvin and Voigt): e = T/k (1 - exp(-k t/d)). The error is of the first order in the substeps and in the
- * masses that are not quite 0: m/d = 2e-4 s of 0.25. */
+/* Spring and dashpot side by side (Kelvin and Voigt): e = T/k (1 - exp(-k t/d)). The error is of the first
+ * order in the substeps and in the masses that are not quite 0: m/d = 2e-4 s of 0.25. */
 static void a_damped_spring_creeps_as_kelvin_and_voigt_say(void **state)
 {
     (void)state;
@@ -50,7 +51,8 @@ static void a_damped_spring_creeps_as_kelvin_and_voigt_say(void **state)
     close_balloon(&b);
 }
 
-/* A Maxwell arm beside the spring, c = 1: at once e = T/(2 k); then it creeps to T/k with the time T (1 + c): e = T/k (1 - exp(-t/2)/2). */
+/* A Maxwell arm beside the spring, c = 1: at once e = T/(2 k); then it creeps to T/k with the time T (1 + c):
+ * e = T/k (1 - exp(-t/2)/2). */
 static void a_viscous_spring_creeps_as_its_units_say(void **state)
 {
     (void)state;
@@ -66,8 +68,9 @@ static void a_viscous_spring_creeps_as_its_units_say(void **state)
     close_balloon(&b);
 }
 
-/* A method that moves springs by itself asks for the arms alone. Heavy points go by the forces at the start, of which arms are three quarters; it takes ten
- * times shorter steps, in which arms relax by h/(2 T) = 1 % less than in Euler's. */
+/* A method that moves springs by itself asks for the arms alone. Heavy points go by the forces at the
+ * start, of which arms are three quarters; it takes ten times shorter steps, in which arms relax by h/(2 T)
+ * = 1 % less than in Euler's. */
 static void viscous_springs_pull_alike_under_any_method(void **state)
 {
     (void)state;
@@ -117,7 +120,8 @@ static void a_viscous_spring_that_is_held_relaxes(void **state)
     close_balloon(&b);
 }
 
-/* Past the yield y = 20 with H = 10: it slips until T = y + H s, and what has slipped stays when the pressure is gone. */
+/* Past the yield y = 20 with H = 10: it slips until T = y + H s, and what has slipped stays
+ * when the pressure is gone. */
 static void a_spring_that_slips_keeps_its_length(void **state)
 {
     (void)state;
@@ -148,7 +152,8 @@ static void a_spring_that_is_not_pulled_hard_does_not_slip(void **state)
     close_balloon(&plain);
 }
 
-/* Steps that need not look at every spring leave none that pulls with more than it can hold, as what was slack comes under a pull. 1e-9: to round-off. */
+/* Steps that need not look at every spring leave none that pulls with more than it can hold, as what was
+ * slack comes under a pull. 1e-9: to round-off. */
 static void every_spring_slips_in_the_step_in_which_it_must(void **state)
 {
     (void)state;
@@ -192,8 +197,9 @@ static void viscosity_is_in_the_ledger(void **state)
     close_balloon(&b);
 }
 
-/* All edges of a held, stretched balloon let go, one after the other: what was in springs and arms is booked, to the rounding of its sum. A unit that
- * slips holds nothing itself: what it took was booked as it slipped. */
+/* All edges of a held, stretched balloon let go, one after the other: what was in springs and
+ * arms is booked, to the rounding of its sum. A unit that slips holds nothing itself: what it
+ * took was booked as it slipped. */
 static void what_breaks_takes_its_units_energy_along(void **state)
 {
     (void)state;

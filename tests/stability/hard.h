@@ -1,4 +1,5 @@
-/* What the hard cases share: a guarded balloon, how much of what it has, and textbook Euler as the one who must fail. */
+/* What the hard cases share: a guarded balloon, how much of what it has, and textbook Euler as
+ * the one who must fail. */
 #ifndef TESTS_STABILITY_HARD_H
 #define TESTS_STABILITY_HARD_H
 
@@ -7,7 +8,8 @@
 #include "sim/guard.h"
 #include "unit/balloon.h"
 
-/* The paper's balloon with a scene's defaults, in which the guard splits steps; nothing breaks unless a test wants it to. */
+/* The paper's balloon with a scene's defaults, in which the guard splits steps; nothing breaks
+ * unless a test wants it to. */
 #define HARD(...) SETTINGS("time.guard=substep", "balloons[0].threshold=1e300" __VA_OPT__(, ) __VA_ARGS__)
 /* The same without a guard, by textbook Euler. */
 #define EULER(...) \
@@ -29,8 +31,8 @@ static inline double energy_of(struct balloon *b)
     return m.kinetic_energy + m.elastic_energy;
 }
 
-/* All that a balloon that began at rest can have in kinetic and elastic energy, by the pressures alone: sqrt(2 E) grows by
- * sqrt(sum P^2/m) a second at most (guard.h). */
+/* All that a balloon that began at rest can have in kinetic and elastic energy, by the pressures alone:
+ * sqrt(2 E) grows by sqrt(sum P^2/m) a second at most (guard.h). */
 static inline double reachable(const struct balloon *b, double pressure)
 {
     double push = 0;

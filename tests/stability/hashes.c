@@ -1,4 +1,5 @@
-/* Prints what a bursting balloon comes to by each method, as a hash: equal on every compiler and at every optimisation. */
+/* Prints what a bursting balloon comes to by each method, as a hash: equal on every compiler and
+ * at every optimisation. */
 #include "hard.h"
 
 #include <inttypes.h>

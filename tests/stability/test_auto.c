@@ -1,4 +1,5 @@
-/* The method that chooses a method: as accurate as asked, no dearer than it must be, and the same everywhere. */
+/* The method that chooses a method: as accurate as asked, no dearer than it must be,
+ * and the same everywhere. */
 #include "hard.h"
 #include "sim/auto.h"
 
@@ -31,8 +32,8 @@ static double error_after_a_second(const char *tolerance, uint64_t *evaluations)
     return sqrt(sum) / 45;
 }
 
-/* Forty steps that each err by the tolerance at most err by forty times it, where errors do not grow by themselves; damped as this
- * balloon is, they do not. */
+/* Forty steps that each err by the tolerance at most err by forty times it, where errors do not grow by
+ * themselves; damped as this balloon is, they do not. */
 static void forty_steps_err_by_forty_tolerances_at_most(void **state)
 {
     (void)state;
@@ -100,8 +101,8 @@ static void the_choice_is_the_same_for_any_number_of_threads(void **state)
     close_balloon(&one);
 }
 
-/* With damping a step of rkn4 takes 28 forces: that it is no candidate is known without a trial, which would take 84 at the least, as much
- * as those of all others. */
+/* With damping a step of rkn4 takes 28 forces: that it is no candidate is known without a trial, which would
+ * take 84 at the least, as much as those of all others. */
 static void a_choice_takes_no_more_than_a_few_steps(void **state)
 {
     (void)state;
@@ -113,7 +114,8 @@ static void a_choice_takes_no_more_than_a_few_steps(void **state)
     close_balloon(&b);
 }
 
-/* What it chose, run by its own name in as many steps, moves the points to the same bits: the trials leave nothing behind. */
+/* What it chose, run by its own name in as many steps, moves the points to the same bits: the
+ * trials leave nothing behind. */
 static void trials_leave_no_trace(void **state)
 {
     (void)state;
@@ -135,8 +137,9 @@ static void trials_leave_no_trace(void **state)
     close_balloon(&named);
 }
 
-/* Points of a billionth of a unit: the guard would split the step further than it does, and equations of the long step can take an
- * implicit method millions of iterations. Trials give up where the guard does; this one took minutes. */
+/* Points of a billionth of a unit: the guard would split the step further than it does, and equations of
+ * the long step can take an implicit method millions of iterations. Trials give up where the guard does;
+ * this one took minutes. */
 static void a_trial_ends_where_the_guard_would(void **state)
 {
     (void)state;

@@ -1,7 +1,9 @@
-/* Balloons that come to a violent end: pressure at once, vacuum, everything torn. What is left flies as physics says. */
+/* Balloons that come to a violent end: pressure at once, vacuum, everything torn. What is left
+ * flies as physics says. */
 #include "hard.h"
 
-/* sqrt(2 E) of a balloon at rest grows by no more than the pressures' push; symplectic Euler keeps E to a factor of 2. */
+/* sqrt(2 E) of a balloon at rest grows by no more than the pressures' push; symplectic Euler
+ * keeps E to a factor of 2. */
 static void ten_times_the_bursting_pressure_at_once(void **state)
 {
     (void)state;
@@ -69,7 +71,8 @@ static void everything_tears_in_one_step_and_flies_on(void **state)
     close_balloon(&b);
 }
 
-/* Torn to single triangles, and then without air: momentum stays, but for the rounding of 1000 sums over 162 points. */
+/* Torn to single triangles, and then without air: momentum stays, but for the rounding of
+ * 1000 sums over 162 points. */
 static void single_triangles_keep_mass_and_momentum(void **state)
 {
     (void)state;
@@ -93,9 +96,9 @@ static void single_triangles_keep_mass_and_momentum(void **state)
     close_balloon(&b);
 }
 
-/* All edges past the threshold let go at the end of the same step, whatever their number, so that a tie needs no breaking: on the
- * icosahedron, whose thirty edges are equal, all or none. Rounding makes their lengths differ by some 1e-15, which is why the
- * threshold is put where no length can come near it in a step. */
+/* All edges past the threshold let go at the end of the same step, whatever their number, so that a tie needs
+ * no breaking: on the icosahedron, whose thirty edges are equal, all or none. Rounding makes their lengths
+ * differ by some 1e-15, which is why the threshold is put where no length can come near it in a step. */
 static void equal_edges_let_go_together(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* What no number in a scene may do. Every parameter is asked for, by the table that the parser itself goes by. */
+/* What no number in a scene may do. Every parameter is asked for, by the table that the
+ * parser itself goes by. */
 #include "hard.h"
 
 #include "common/scene_fields.h"
@@ -101,7 +102,8 @@ static const char *needed_by(const char *path)
                                                           : "time.step=0.025";
 }
 
-/* A key that calls for a block which wants more, or puts the balloon into the ground, is refused before anything runs. */
+/* A key that calls for a block which wants more, or puts the balloon into the ground, is
+ * refused before anything runs. */
 static bool is_refused(const char *needed, const char *change)
 {
     struct error err = {0};
@@ -123,7 +125,8 @@ static bool is_refused(const char *needed, const char *change)
     return status != STATUS_OK;
 }
 
-/* Either it runs without making energy, or it is refused or given up with a reason; never a number that is none. */
+/* Either it runs without making energy, or it is refused or given up with a reason; never
+ * a number that is none. */
 static void survives_its_extremes(const struct scene_field *field, const char *path)
 {
     if (field->type != SCENE_NUMBER || strncmp(path, "view", 4) == 0 || strncmp(path, "schedule", 8) == 0)

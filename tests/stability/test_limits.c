@@ -1,11 +1,13 @@
-/* Pressure and gas at their limits: past the limit point of rubber under control of the gas and of the pressure, ten times the bursting
- * pressure at once, vacuum, gas whose volume goes to nothing, and forces that grow within a step. */
+/* Pressure and gas at their limits: past the limit point of rubber under control of the gas and of the
+ * pressure, ten times the bursting pressure at once, vacuum, gas whose volume goes to nothing, and forces
+ * that grow within a step. */
 #include "hard.h"
 
 #include "sim/effect_gas.h"
 #include "sim/gas.h"
 
-/* Neo-Hookean unless a test says otherwise; p* = p R0/(mu h0) = 100 p, and time in units of R0 sqrt(rho/mu). */
+/* Neo-Hookean unless a test says otherwise; p* = p R0/(mu h0) = 100 p, and time in
+ * units of R0 sqrt(rho/mu). */
 #define RUBBER(...)                                                                        \
     HARD("balloons[0].radius=1", "balloons[0].membrane.thickness=0.01",                    \
          "balloons[0].membrane.shear_modulus=1", "balloons[0].membrane.density=1",         \
@@ -25,10 +27,10 @@ static double stretch_of(struct balloon *b)
     return cbrt(sim_measure(&b->sim).volume / rest) / b->sim.balloons[0].radius;
 }
 
-/* Pumped up slowly: the pressure rises to 1.239 at a stretch of 1.383 and falls from there on, while the balloon goes on growing
- * evenly. 320 triangles err by 1.55 % in pressure; the pump's 0.08 fills a second leave
- * a trembling and a viscous share, eta dL/dt = 0.04 of mu at the most, which is 3 % of p*.
- * As the pressure falls the gas expands by a part of what is pumped. */
+/* Pumped up slowly: the pressure rises to 1.239 at a stretch of 1.383 and falls from there on, while the
+ * balloon goes on growing evenly. 320 triangles err by 1.55 % in pressure; the pump's 0.08 fills a second
+ * leave a trembling and a viscous share, eta dL/dt = 0.04 of mu at the most, which is 3 % of p*. As the
+ * pressure falls the gas expands by a part of what is pumped. */
 static void pumped_up_it_passes_the_limit_point_smoothly(void **state)
 {
     (void)state;
@@ -63,7 +65,8 @@ static void pumped_up_it_passes_the_limit_point_smoothly(void **state)
     close_balloon(&b);
 }
 
-/* News of the limit point while the balloon is given a pressure for some time, or until it is three times as large; NULL: none. */
+/* News of the limit point while the balloon is given a pressure for some time, or until it is three
+ * times as large; NULL: none. */
 static const char *jump_under(struct balloon *b, double seconds)
 {
     const char *told = NULL;
@@ -100,8 +103,8 @@ static void under_more_pressure_than_its_limit_it_jumps_and_says_so(void **state
     close_balloon(&b);
 }
 
-/* Mooney's and Rivlin's rubber stiffens again. Where it comes to rest is what was told, to half of the last of three digits and .2 %
- * of creeping. */
+/* Mooney's and Rivlin's rubber stiffens again. Where it comes to rest is what was told, to half of the last
+ * of three digits and .2 % of creeping. */
 static void rubber_that_stiffens_again_jumps_to_where_it_says(void **state)
 {
     (void)state;
@@ -147,8 +150,9 @@ static double all_energy(struct balloon *b)
     return energy_of(b) + effects_energy(&b->sim);
 }
 
-/* In the paper's skin, which bursts at a force of 10 a point: filled with ten times the pressure that makes 642 such forces on its area. It
- * never has more than the gas had at first; symplectic Euler keeps that to a factor of 2. */
+/* In the paper's skin, which bursts at a force of 10 a point: filled with ten times the pressure that
+ * makes 642 such forces on its area. It never has more than the gas had at first; symplectic Euler keeps
+ * that to a factor of 2. */
 static void gas_of_ten_times_the_bursting_pressure_at_once(void **state)
 {
     (void)state;
@@ -189,8 +193,9 @@ static void a_tearing_skin_under_ten_times_its_limit_at_once(void **state)
     close_balloon(&b);
 }
 
-/* Air that presses on a balloon with half of its gas gone squeezes it to about half the volume (its skin takes little of the load), where it
- * stays: the gas is all there, the volume never nothing, and of the air's work nothing is left but what the skin holds. */
+/* Air that presses on a balloon with half of its gas gone squeezes it to about half the volume (its skin
+ * takes little of the load), where it stays: the gas is all there, the volume never nothing, and of the air's
+ * work nothing is left but what the skin holds. */
 static void air_crushes_a_half_empty_balloon_no_further_than_its_gas_allows(void **state)
 {
     (void)state;
@@ -210,8 +215,9 @@ static void air_crushes_a_half_empty_balloon_no_further_than_its_gas_allows(void
     close_balloon(&b);
 }
 
-/* Next to nothing inside: the skin is pushed through itself, whatever the step. That ends the run in the step in which no volume is left,
- * with what has happened, and until then nothing has more energy than the air gives, pa V0, to a factor of 2. */
+/* Next to nothing inside: the skin is pushed through itself, whatever the step. That ends the run in the step
+ * in which no volume is left, with what has happened, and until then nothing has more energy than the air
+ * gives, pa V0, to a factor of 2. */
 static void gas_whose_volume_goes_to_nothing_ends_the_run_and_says_so(void **state)
 {
     (void)state;
@@ -230,8 +236,9 @@ static void gas_whose_volume_goes_to_nothing_ends_the_run_and_says_so(void **sta
     close_balloon(&b);
 }
 
-/* A pump that fills it ten thousand times in the first step, gas that weighs more than its skin, a string that is taut by a radius, air as
- * thick as honey and storm in it: forces that no speed of the start tells of. None is mistaken for numbers that run away, none makes them. */
+/* A pump that fills it ten thousand times in the first step, gas that weighs more than its skin, a string
+ * that is taut by a radius, air as thick as honey and storm in it: forces that no speed of the start tells
+ * of. None is mistaken for numbers that run away, none makes them. */
 static void what_pushes_out_of_the_blue_is_no_divergence(void **state)
 {
     (void)state;
@@ -255,8 +262,9 @@ static void what_pushes_out_of_the_blue_is_no_divergence(void **state)
     }
 }
 
-/* Air of 10 against points of .11, a thousand of pressure on them: the step that is stable at rest is a hundred times too long once they fly,
- * which happens within it. Drag only takes: with the pressure gone there is never more energy than there was. */
+/* Air of 10 against points of .11, a thousand of pressure on them: the step that is stable at rest is a
+ * hundred times too long once they fly, which happens within it. Drag only takes: with the pressure gone
+ * there is never more energy than there was. */
 static void drag_that_grows_within_a_step_splits_it_further(void **state)
 {
     (void)state;

@@ -1,8 +1,8 @@
 /* Hard cases that take long: what small errors add up to. */
 #include "hard.h"
 
-/* A symplectic method keeps an energy near the true one for ever: after 10^6 undamped steps it is where it was, but for what
- * oscillates within (dt w)^2/4 < 3 % at a quarter of the bound. */
+/* A symplectic method keeps an energy near the true one for ever: after 10^6 undamped steps it is where it
+ * was, but for what oscillates within (dt w)^2/4 < 3 % at a quarter of the bound. */
 static void undamped_energy_does_not_drift_in_1e6_steps(void **state)
 {
     (void)state;

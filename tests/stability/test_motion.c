@@ -1,8 +1,9 @@
-/* What motion must keep, whatever method moves the points: rest, rigid motion, momentum, the stated order, and the way on from any
- * state. */
+/* What motion must keep, whatever method moves the points: rest, rigid motion, momentum, the stated order,
+ * and the way on from any state. */
 #include "hard.h"
 
-/* Without pressure a balloon at rest has no force on any point, to the bit: 10^5 steps of it change nothing. */
+/* Without pressure a balloon at rest has no force on any point, to the bit: 10^5
+ * steps of it change nothing. */
 static void at_rest_nothing_moves_by_a_bit_in_1e5_steps(void **state)
 {
     (void)state;
@@ -34,8 +35,8 @@ static void a_balloon_that_only_flies_feels_no_force(void **state)
         const double begin = sim_measure(&b.sim).kinetic_energy;
         steps(&b, 1000);
         const struct sim_measures m = sim_measure(&b.sim);
-        /* methods that choose their steps may err by 1e-5 radii in each place: k (45e-5)^2/2 on each of 120 edges, and by 1e-5 of
-         * the speed */
+        /* methods that choose their steps may err by 1e-5 radii in each place: k (45e-5)^2/2 on each of 120
+         * edges, and by 1e-5 of the speed */
         const bool chooses = (*method)->flags & INTEGRATOR_ADAPTIVE;
         assert_near(m.kinetic_energy / begin, 1, chooses ? 2e-5 : 1e-9);
         assert_near(m.elastic_energy, 0, chooses ? 3e-4 : 1e-15);
@@ -55,8 +56,8 @@ static void angular_momentum_of(const struct sim *sim, double sum[3])
     }
 }
 
-/* Forces along edges have no torque, and x += v dt with the same v none either: kept to rounding by both orders of Euler's update
- * and by Verlet. */
+/* Forces along edges have no torque, and x += v dt with the same v none either: kept to rounding by both
+ * orders of Euler's update and by Verlet. */
 static void a_spinning_balloon_keeps_its_angular_momentum(void **state)
 {
     (void)state;
@@ -77,8 +78,8 @@ static void a_spinning_balloon_keeps_its_angular_momentum(void **state)
     close_balloon(&b);
 }
 
-/* At half the bound of the springs a method multiplies no oscillation, and at the bound of the dampers no decay: whatever limits a
- * method states, the guard's split by them must hold. */
+/* At half the bound of the springs a method multiplies no oscillation, and at the bound of the dampers no
+ * decay: whatever limits a method states, the guard's split by them must hold. */
 static void every_method_calms_a_shaken_balloon_within_its_bound(void **state)
 {
     (void)state;
@@ -101,8 +102,8 @@ static void every_method_calms_a_shaken_balloon_within_its_bound(void **state)
         }
 }
 
-/* All that the future depends on is in sim_blocks(): put into another sim at any step, it goes on to the bit, in substeps, over
- * changes by the schedule, while edges let go, and with every method. */
+/* All that the future depends on is in sim_blocks(): put into another sim at any step, it goes on to the bit,
+ * in substeps, over changes by the schedule, while edges let go, and with every method. */
 static void a_state_taken_over_at_every_step_goes_on_to_the_bit(void **state)
 {
     (void)state;
@@ -152,7 +153,8 @@ static double radius_by(const char *method, double step)
     return radius;
 }
 
-/* dt halved three times: the differences between one step and the next smaller shrink by 2^order each time. */
+/* dt halved three times: the differences between one step and the next smaller
+ * shrink by 2^order each time. */
 static void every_method_has_the_order_that_it_states(void **state)
 {
     (void)state;
@@ -170,8 +172,9 @@ static void every_method_has_the_order_that_it_states(void **state)
     }
 }
 
-/* Springs and pressure per area stay as points become more: a hexagonal net of springs k is a sheet of the stiffness k whatever the
- * length of its edges, and each point gets its share of the same push. The balloon at rest under pressure converges. */
+/* Springs and pressure per area stay as points become more: a hexagonal net of springs k is a sheet of the
+ * stiffness k whatever the length of its edges, and each point gets its share of the same push. The balloon
+ * at rest under pressure converges. */
 static void the_radius_at_rest_converges_as_the_mesh_is_refined(void **state)
 {
     (void)state;

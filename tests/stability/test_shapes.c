@@ -1,5 +1,5 @@
-/* Meshes that are no pleasure: edges of no length, slivers, flat and inverted triangles, points that lie on each other or belong to
- * nothing, balloons of any size anywhere, numbered in any order. */
+/* Meshes that are no pleasure: edges of no length, slivers, flat and inverted triangles, points that lie on
+ * each other or belong to nothing, balloons of any size anywhere, numbered in any order. */
 #include "hard.h"
 #include "unit/folder.h"
 
@@ -71,7 +71,8 @@ static void a_triangle_that_is_flat_at_rest(void **state)
     close_balloon(&b);
 }
 
-/* A point is thrown through the balloon to the other side; what it has in energy is given to the rest and lost in dampers. */
+/* A point is thrown through the balloon to the other side; what it has in energy is given to the
+ * rest and lost in dampers. */
 static void a_triangle_turned_inside_out_in_flight(void **state)
 {
     (void)state;
@@ -130,7 +131,8 @@ static void points_that_no_triangle_uses_stay_where_they_are(void **state)
     close_balloon(&b);
 }
 
-/* Saves a sphere of which the triangles from 0 to `turned` have been wound the other way, and loads it as a scene does. */
+/* Saves a sphere of which the triangles from 0 to `turned` have been wound the other way, and
+ * loads it as a scene does. */
 static enum status load_turned(uint32_t turned, struct mesh *mesh, struct mesh_report *report,
                                struct error *err)
 {
@@ -174,8 +176,8 @@ static void an_inside_out_sphere_is_turned_and_swells(void **state)
     close_balloon(&b);
 }
 
-/* Lengths times s and forces times s: times stay. Places over s are equal but for rounding, which 200 steps of a balloon that is
- * nowhere near chaos do not raise above 1e-9 of a radius. */
+/* Lengths times s and forces times s: times stay. Places over s are equal but for rounding, which 200 steps
+ * of a balloon that is nowhere near chaos do not raise above 1e-9 of a radius. */
 static void lengths_from_1e_6_to_1e6_give_the_same_balloon(void **state)
 {
     (void)state;
@@ -196,8 +198,8 @@ static void lengths_from_1e_6_to_1e6_give_the_same_balloon(void **state)
         close_balloon(&b[k]);
 }
 
-/* At 1e6 radii a place is rounded to 1.2e-10 radii, an edge of .3 radii to 1e-9 of its length, which a static balloon passes on to
- * its radius; dynamics add to that as a random walk over 200 steps: 1e-7 is ample. */
+/* At 1e6 radii a place is rounded to 1.2e-10 radii, an edge of .3 radii to 1e-9 of its length, which a static
+ * balloon passes on to its radius; dynamics add to that as a random walk over 200 steps: 1e-7 is ample. */
 static void a_balloon_a_million_radii_away_swells_as_much(void **state)
 {
     (void)state;
@@ -215,8 +217,8 @@ static void a_balloon_a_million_radii_away_swells_as_much(void **state)
     assert_near(radius[1] / radius[0], 1, 1e-7);
 }
 
-/* Points in another order, each triangle begun at another corner: sums of forces in another order, whose rounding a hundred
- * steps do not raise above 1e-9 radii. */
+/* Points in another order, each triangle begun at another corner: sums of forces in another order, whose
+ * rounding a hundred steps do not raise above 1e-9 radii. */
 static void renumbered_points_edges_and_triangles_move_alike(void **state)
 {
     (void)state;

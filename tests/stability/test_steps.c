@@ -1,12 +1,13 @@
-/* Steps that are too large, springs, dampers and masses that are far from each other: the guard splits the step, and what must
- * not grow does not. Textbook Euler without a guard fails each of them, and says so. */
+/* Steps that are too large, springs, dampers and masses that are far from each other: the guard splits the
+ * step, and what must not grow does not. Textbook Euler without a guard fails each of them, and says so. */
 #include "hard.h"
 
 static const double multiples[] = {0.5, 0.99, 1.01, 10, 1000};
 enum { MULTIPLES = sizeof multiples / sizeof multiples[0] };
 
-/* What symplectic Euler keeps exactly in an undamped linear system is E minus (dt w)^2/4 of a share of E: within the bound
- * E itself stays between E/2 and 2 E of its mean, and what is not linear in small shakings adds a few per cent. */
+/* What symplectic Euler keeps exactly in an undamped linear system is E minus (dt w)^2/4 of a share of E:
+ * within the bound E itself stays between E/2 and 2 E of its mean, and what is not linear in small
+ * shakings adds a few per cent. */
 static void undamped_energy_stays_within_bounds_at_any_step(void **state)
 {
     (void)state;
@@ -43,7 +44,8 @@ static void damped_energy_falls_at_any_step(void **state)
     }
 }
 
-/* At half the other's bound it multiplies the fastest oscillation by 1.4 in each step, and from there on by more. */
+/* At half the other's bound it multiplies the fastest oscillation by 1.4 in each step, and
+ * from there on by more. */
 static void textbook_euler_diverges_at_any_of_these_steps(void **state)
 {
     (void)state;
@@ -57,7 +59,8 @@ static void textbook_euler_diverges_at_any_of_these_steps(void **state)
     }
 }
 
-/* Guarded, its oscillations grow e-fold at most until the end: e^2 in energy, and a few per cent of what is not linear. */
+/* Guarded, its oscillations grow e-fold at most until the end: e^2 in energy, and a few per cent
+ * of what is not linear. */
 static void textbook_euler_guarded_grows_no_more_than_it_says(void **state)
 {
     (void)state;
@@ -112,7 +115,8 @@ static void make_heavy(struct balloon *b)
     guard_outdated(&b->sim);
 }
 
-/* Springs and dampers give to one what they take from the other: rounding of 2000 steps of forces up to 1e2 is all there is. */
+/* Springs and dampers give to one what they take from the other: rounding of 2000 steps of forces up
+ * to 1e2 is all there is. */
 static void masses_a_million_times_as_large_keep_momentum_to_1e_12(void **state)
 {
     (void)state;

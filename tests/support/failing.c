@@ -1,5 +1,5 @@
-/* Loaded into a program: lets calls that its own code or libpng make fail, one by number (failing.h), and stops the clock
- * that they see, so that what is written is the same each time. */
+/* Loaded into a program: lets calls that its own code or libpng make fail, one by number (failing.h), and
+ * stops the clock that they see, so that what is written is the same each time. */
 #include "failing.h"
 
 #include <dlfcn.h>
@@ -73,7 +73,8 @@ static void note_end(void)
     ended = true;
 }
 
-/* Once main() is begun, so that it comes before what gcov does at the end, which is the program's code and not its doing. */
+/* Once main() is begun, so that it comes before what gcov does at the end, which is the program's
+ * code and not its doing. */
 static void ask_for_end(void)
 {
     atexit(note_end);
@@ -155,7 +156,8 @@ void *realloc(void *block, size_t size)
     return fails(FAILING_MEMORY, "realloc", __builtin_return_address(0)) ? NULL : real(block, size);
 }
 
-/* What is freed while free() itself is looked up is an old message about a function that was not found: it stays. */
+/* What is freed while free() itself is looked up is an old message about a function that
+ * was not found: it stays. */
 void free(void *block)
 {
     static __typeof__(&free) real;

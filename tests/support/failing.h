@@ -1,6 +1,6 @@
 /*
- * Whole programs whose calls fail: what failing.c, which is loaded into the program (LD_PRELOAD), shares with whoever runs it.
- * The variable FAILING names a file that holds this.
+ * Whole programs whose calls fail: what failing.c, which is loaded into the program (LD_PRELOAD), shares with
+ * whoever runs it. The variable FAILING names a file that holds this.
  */
 #ifndef TESTS_SUPPORT_FAILING_H
 #define TESTS_SUPPORT_FAILING_H

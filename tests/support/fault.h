@@ -8,15 +8,16 @@
  *         ...                                    fault.failed: "rename", say; NULL when all calls succeeded
  *     }
  *
- * The first round lets the first call fail, the second the second, and so on; one more round, the last, is without a
- * failure. Then it all happens again with every later call failing too, as it is when a disk stays full.
+ * The first round lets the first call fail, the second the second, and so on; one more round, the
+ * last, is without a failure. Then it all happens again with every later call failing too, as it is
+ * when a disk stays full.
  *
  * A program that includes this is given the dependency `fault` (tests/support/meson.build), which leads the
  * calls made in the project's own code here; what the C library and others call among themselves is as ever.
  *
- * What fails: FAULT_MEMORY malloc, calloc, realloc, strdup, strndup, open_memstream; FAULT_FILES opening (fopen, open,
- * mkostemp, fdopen), writing (fwrite, fflush, write: the device is full, the write done in part), fsync, fclose,
- * rename, link, linkat, ftruncate.
+ * What fails: FAULT_MEMORY malloc, calloc, realloc, strdup, strndup, open_memstream; FAULT_FILES opening
+ * (fopen, open, mkostemp, fdopen), writing (fwrite, fflush, write: the device is full, the write done in
+ * part), fsync, fclose, rename, link, linkat, ftruncate.
  */
 #ifndef TESTS_SUPPORT_FAULT_H
 #define TESTS_SUPPORT_FAULT_H

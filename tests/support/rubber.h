@@ -1,4 +1,5 @@
-/* The scene of a thin sphere of rubber and its gas, in units of its radius, shear modulus, density and thickness. */
+/* The scene of a thin sphere of rubber and its gas, in units of its radius, shear modulus,
+ * density and thickness. */
 #ifndef TESTS_SUPPORT_RUBBER_H
 #define TESTS_SUPPORT_RUBBER_H
 
@@ -20,8 +21,9 @@ static inline double rubber_pressure(double stretch)
     return 2 * (1 / stretch - pow(stretch, -7));
 }
 
-/* A membrane with the gas that holds it at this stretch. An ambient pressure of 30 and a gas of density .15 are those of a toy balloon of
- * latex (1e5 over 3e3 Pa, 1.2 over 8 kg/m^3 with its thickness counted as 1). */
+/* A membrane with the gas that holds it at this stretch. An ambient pressure of 30 and a gas of
+ * density .15 are those of a toy balloon of latex (1e5 over 3e3 Pa, 1.2 over 8 kg/m^3 with its
+ * thickness counted as 1). */
 static inline enum status rubber_keys(struct scene *scene, double stretch, double viscosity,
                                       struct error *err)
 {

@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The icosahedron: the even permutations of (0, +-1, +-golden ratio), and the triples of them that are neighbours. */
+/* The icosahedron: the even permutations of (0, +-1, +-golden ratio), and the triples of
+ * them that are neighbours. */
 static void icosahedron(struct mesh *mesh)
 {
     const double golden = (1 + sqrt(5)) / 2;

@@ -4,8 +4,8 @@
 
 #include "common/mesh.h"
 
-/* A regular icosphere of radius 1 around the origin: 20 x 4^level triangles, wound outward, connected. Level 0 to 8.
- * Ends the program when memory is not enough. */
+/* A regular icosphere of radius 1 around the origin: 20 x 4^level triangles, wound outward, connected. Level
+ * 0 to 8. Ends the program when memory is not enough. */
 void shape_icosphere(unsigned level, struct mesh *mesh);
 
 #endif

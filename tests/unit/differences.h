@@ -21,7 +21,8 @@ static inline void fill(rows x, uint32_t count, double size, uint64_t *random)
             x[p][i] += size * (2 * random_unit(random) - 1);
 }
 
-/* Stretched by these factors along x, y and z, shaken by up to `size` of edges of .3, in motion, a few triangles gone. */
+/* Stretched by these factors along x, y and z, shaken by up to `size` of edges of .3, in
+ * motion, a few triangles gone. */
 static inline void deform(struct sim *sim, const double factor[3], double size)
 {
     uint64_t random = 3;
@@ -68,8 +69,8 @@ static inline void force_at(struct sim *sim, double s, rows dx, rows dv, rows fo
     free(v);
 }
 
-/* Central differences over h and 2 h and Richardson's extrapolation: (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / (12 h), wrong
- * by h^4 f'''''/30 and by the rounding of f / h. */
+/* Central differences over h and 2 h and Richardson's extrapolation: (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) /
+ * (12 h), wrong by h^4 f'''''/30 and by the rounding of f / h. */
 static const double difference_place[4] = {1, -1, 2, -2}, difference_weight[4] = {8, -8, -1, 1};
 
 /* Of the force, along (dx, dv). */
@@ -84,7 +85,8 @@ static inline void difference(struct sim *sim, double h, rows dx, rows dv, rows 
     free(f);
 }
 
-/* How far K dx + D dv is from that, at the most, along a random direction; *size becomes the largest of its numbers. */
+/* How far K dx + D dv is from that, at the most, along a random direction; *size becomes the
+ * largest of its numbers. */
 static inline double product_error(struct sim *sim, double h, uint64_t *random, double *size)
 {
     rows dx = new_rows(sim), dv = new_rows(sim), exact = new_rows(sim), near = new_rows(sim);

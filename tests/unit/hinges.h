@@ -13,7 +13,8 @@
              "balloons[0].bending.stiffness=1", "time.integrator=symplectic-euler", "time.step=0.01", \
              "time.end=1e6" __VA_OPT__(, ) __VA_ARGS__)
 
-/* Blown up; out of shape; crumpled, with folds past a right angle; flattened, with triangles that are crushed. */
+/* Blown up; out of shape; crumpled, with folds past a right angle; flattened, with
+ * triangles that are crushed. */
 static const struct {
     double factor[3], size;
 } shapes[] = {

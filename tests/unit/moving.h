@@ -1,4 +1,5 @@
-/* A balloon in motion, for tests of the methods that move it: out of rest, smooth for as long as nothing breaks. */
+/* A balloon in motion, for tests of the methods that move it: out of rest, smooth for as
+ * long as nothing breaks. */
 #ifndef TESTS_UNIT_MOVING_H
 #define TESTS_UNIT_MOVING_H
 

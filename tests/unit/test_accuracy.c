@@ -32,8 +32,8 @@ static size_t rows_of(const struct accuracy_table *table, const struct integrato
     return count;
 }
 
-/* By halving, where the coarser step is stable and not so coarse that higher terms count: from an error of 1e-3 on. Rounding in 1e4
- * steps and the references' distance stay below a hundredth of 1e-9. */
+/* By halving, where the coarser step is stable and not so coarse that higher terms count: from an error of
+ * 1e-3 on. Rounding in 1e4 steps and the references' distance stay below a hundredth of 1e-9. */
 static void check_ladder(const struct accuracy_row *row, size_t count)
 {
     const bool tolerant = row->method->flags & INTEGRATOR_ADAPTIVE || row->method->choose;

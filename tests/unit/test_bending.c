@@ -20,7 +20,8 @@ static double energy_of(struct sim *sim)
     return effects_energy(sim);
 }
 
-/* h = 1e-6 of edges of .3, of which the crushed ones' heights are some .01: h^4 f'''''/30 is below 1e-16 f; rounding of E, below 100:
+/* h = 1e-6 of edges of .3, of which the crushed ones' heights are some .01: h^4 f'''''/30 is below 1e-16 f;
+ * rounding of E, below 100:
  * 100 x 2e-16/h = 2e-8. A triangle that is crushed within 2 h would jump in E''. */
 static void forces_are_the_slope_of_the_energy(void **state)
 {
@@ -79,7 +80,8 @@ static void add_moments(const struct sim *sim, rows what, double linear[3], doub
         }
 }
 
-/* No force and no torque on the whole, but for the rounding of sums of some 500 terms of the size of the largest. */
+/* No force and no torque on the whole, but for the rounding of sums of some 500 terms of
+ * the size of the largest. */
 static void hinges_push_and_turn_nothing_as_a_whole(void **state)
 {
     (void)state;
@@ -133,7 +135,8 @@ static double steepness(const struct sim *sim, uint32_t hinge)
     return sum * h->rest[3][hinge];
 }
 
-/* The passes hand on two numbers in the room of one: each to 2^-20 = 1e-6, and what they are taken from is up to six times what is left. */
+/* The passes hand on two numbers in the room of one: each to 2^-20 = 1e-6, and what they are taken from is up
+ * to six times what is left. */
 static void the_guard_goes_by_the_steepest_hinge(void **state)
 {
     (void)state;
@@ -153,8 +156,8 @@ static void the_guard_goes_by_the_steepest_hinge(void **state)
     }
 }
 
-/* The guard's bound, found at rest and watched from then on, keeps crumpled skin from gaining energy, but for the
- * share that symplectic Euler moves to and fro near its limit. */
+/* The guard's bound, found at rest and watched from then on, keeps crumpled skin from gaining energy, but for
+ * the share that symplectic Euler moves to and fro near its limit. */
 static void the_guards_bound_holds_for_hinges(void **state)
 {
     (void)state;
@@ -174,7 +177,8 @@ static void the_guards_bound_holds_for_hinges(void **state)
     }
 }
 
-/* The largest eigenvalue of the derivatives, by power iteration, is within the bound's 4/dt^2, and not far below. */
+/* The largest eigenvalue of the derivatives, by power iteration, is within the bound's
+ * 4/dt^2, and not far below. */
 static void the_bound_is_above_the_stiffest_mode(void **state)
 {
     (void)state;
@@ -257,7 +261,8 @@ static void a_cut_ends_its_hinge(void **state)
     close_balloon(&b);
 }
 
-/* Kinetic, elastic, bending and dissipated energy and what broke add up: symplectic Euler's error falls with the step. */
+/* Kinetic, elastic, bending and dissipated energy and what broke add up: symplectic Euler's
+ * error falls with the step. */
 static void the_ledger_balances(void **state)
 {
     (void)state;

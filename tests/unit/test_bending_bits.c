@@ -1,4 +1,5 @@
-/* Hinges give the same bits on any number of threads and by any set of instructions, and leave those of normals alone. */
+/* Hinges give the same bits on any number of threads and by any set of instructions, and leave
+ * those of normals alone. */
 #include "hinges.h"
 #include "sim/bending_kernels.h"
 
@@ -31,8 +32,8 @@ static void torn_hinges_are_equal_for_any_number_of_threads(void **state)
     close_balloon(&b);
 }
 
-/* The step's normals are added up on the way through the triangles that hinges need too: the same to the bit, in whole fours and in
- * others. */
+/* The step's normals are added up on the way through the triangles that hinges need too: the same to the bit,
+ * in whole fours and in others. */
 static void normals_are_what_they_are_without_hinges(void **state)
 {
     (void)state;

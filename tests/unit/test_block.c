@@ -1,4 +1,5 @@
-/* Blocks of the field's samples, lines along their edges and the table of the normal distribution: what they say is what a probe does. */
+/* Blocks of the field's samples, lines along their edges and the table of the normal distribution: what they
+ * say is what a probe does. */
 #include "fields.h"
 #include "surface/block.h"
 

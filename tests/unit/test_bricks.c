@@ -67,8 +67,8 @@ static void every_exposed_face_is_in_one_rectangle_of_its_material(void **state)
     }
 }
 
-/* Two bricks along each axis: four rectangles a side of the cube, of one material; twice as many where two meet in
- * the middle of each brick. */
+/* Two bricks along each axis: four rectangles a side of the cube, of one material; twice as many where two
+ * meet in the middle of each brick. */
 static void a_flat_side_is_one_rectangle_a_brick_and_material(void **state)
 {
     (void)state;

@@ -3,8 +3,8 @@
 #include "renderer.h"
 #include "sphere.h"
 
-/* A sphere, and two more behind the eye, which nobody sees: with the first of these there are a few triangles too few for cells, with the
- * second enough. */
+/* A sphere, and two more behind the eye, which nobody sees: with the first of these there are a few triangles
+ * too few for cells, with the second enough. */
 struct spheres {
     struct mesh mesh[3];
     struct render_skin skin[3];
@@ -78,7 +78,8 @@ static void build(const struct render_view *view, const struct spheres *s, struc
     assert_ok(cells_build(cells, g, &eyes[0], &err), &err);
 }
 
-/* Each cell has its triangles in the order of all, and each triangle in sight is in all cells that its corners are in. */
+/* Each cell has its triangles in the order of all, and each triangle in sight is in all cells
+ * that its corners are in. */
 static void cells_hold_what_reaches_into_them_in_order(void **state)
 {
     (void)state;

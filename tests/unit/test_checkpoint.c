@@ -1,11 +1,13 @@
-/* Checkpoints: a run that is resumed is equal to the bit to one that never stopped; another scene's are refused. */
+/* Checkpoints: a run that is resumed is equal to the bit to one that never stopped;
+ * another scene's are refused. */
 #include "checkpoints.h"
 #include "sim/ledger.h"
 #include "sim/log.h"
 
 enum { STEPS = 30, AHEAD = 5 };
 
-/* A run that bursts on the way: saved and resumed after each of its steps, it goes on as it did, every sixth time to the end. */
+/* A run that bursts on the way: saved and resumed after each of its steps, it goes on as it did, every
+ * sixth time to the end. */
 static void check_resuming(const char *const *changes, unsigned workers)
 {
     struct error err = {0};
@@ -73,7 +75,8 @@ static void a_checkpoint_carries_what_the_program_knows_of_the_run(void **state)
     close_balloon(&b);
 }
 
-/* The accounts go along where they are kept, begin where they were not, and are left behind where nobody wants them. */
+/* The accounts go along where they are kept, begin where they were not, and are left behind
+ * where nobody wants them. */
 static void the_ledger_goes_along(void **state)
 {
     (void)state;

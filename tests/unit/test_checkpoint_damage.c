@@ -1,4 +1,5 @@
-/* Files that are no checkpoints, damaged ones, and those of another version: each is refused with what is wrong. */
+/* Files that are no checkpoints, damaged ones, and those of another version: each is
+ * refused with what is wrong. */
 #include "checkpoints.h"
 #include "common/crc.h"
 #include "common/file.h"
@@ -46,7 +47,8 @@ static void damage_anywhere_is_found(void **state)
     close_balloon(&b);
 }
 
-/* Finds the block of this name in the file's bytes, flips a bit of its first byte, and makes the checksum match. */
+/* Finds the block of this name in the file's bytes, flips a bit of its first byte, and
+ * makes the checksum match. */
 static void spoil(struct bytes *file, const char *block, unsigned char bit)
 {
     unsigned char *name = memmem(file->data, file->size, block, strlen(block));
@@ -86,7 +88,8 @@ static void what_is_sound_and_yet_no_state_is_refused(void **state)
     close_balloon(&b);
 }
 
-/* Reads a.ck; returns where its first chunk of this name is, or what begins with that, and the size of what is in it. */
+/* Reads a.ck; returns where its first chunk of this name is, or what begins with that, and the
+ * size of what is in it. */
 static unsigned char *read_chunk(const char *name, struct bytes *file, uint64_t *size)
 {
     struct error err = {0};
@@ -97,8 +100,8 @@ static unsigned char *read_chunk(const char *name, struct bytes *file, uint64_t 
     return head;
 }
 
-/* Writes a.ck anew with the chunk whose bytes begin with `block` behind its head changed: its name, or its size (the rest of the
- * file follows), with the checksum that it then must have. */
+/* Writes a.ck anew with the chunk whose bytes begin with `block` behind its head changed: its name, or its
+ * size (the rest of the file follows), with the checksum that it then must have. */
 static void change_chunk(const char *block, const char *name, size_t shorter)
 {
     struct bytes file = {0};
@@ -141,7 +144,8 @@ static void chunks_that_are_others_than_they_must_be_are_named(void **state)
     close_balloon(&b);
 }
 
-/* Sets a byte of what is in the first chunk of this name in a.ck, with the checksum that it then must have. */
+/* Sets a byte of what is in the first chunk of this name in a.ck, with the checksum
+ * that it then must have. */
 static void set_byte(const char *chunk, size_t at, unsigned char value)
 {
     struct bytes file = {0};

@@ -22,7 +22,8 @@ static void say(const struct effect_cost_table *table, size_t row, char text[128
     effect_cost_say(table, &table->rows[row], text, 1280);
 }
 
-/* Free fall, which moves everything by g t^2/2 = 0.24 at the end and is no more than rounding in any other way. */
+/* Free fall, which moves everything by g t^2/2 = 0.24 at the end and is no more than
+ * rounding in any other way. */
 static void what_gravity_does_is_found_to_the_letter(void **state)
 {
     (void)state;

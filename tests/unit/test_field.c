@@ -66,8 +66,8 @@ static double fields_of_cell(const int cell[3], int n, const double point[3], do
     return sum;
 }
 
-/* All fields on one face of a cell, whose plane is 1 / 4 of the first cube away from the next: with A fields a
- * unit of area the lattice's spacing is 4 / sqrt(A) cells. */
+/* All fields on one face of a cell, whose plane is 1 / 4 of the first cube away from the next: with A fields
+ * a unit of area the lattice's spacing is 4 / sqrt(A) cells. */
 static double fields_of_face(const int cell[3], int axis, bool upper, double area, const double point[3],
                              double s)
 {

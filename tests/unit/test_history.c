@@ -11,8 +11,8 @@ static void do_step(struct history *history, struct octree *tree, const struct c
     assert_true(history_end(history, tree, NULL));
 }
 
-/* Steps of one to three random chips, undone to the start and done again to the end, hash by hash. Steps that change
- * nothing are no steps. */
+/* Steps of one to three random chips, undone to the start and done again to the end, hash by hash. Steps that
+ * change nothing are no steps. */
 static void check_there_and_back(unsigned depth, double size, int operations, uint64_t seed)
 {
     struct history history;

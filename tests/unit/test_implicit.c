@@ -1,4 +1,5 @@
-/* Implicit methods: their order, what they conserve, and steps a thousand times longer than explicit methods bear. */
+/* Implicit methods: their order, what they conserve, and steps a thousand times longer than
+ * explicit methods bear. */
 #include "balloon.h"
 #include "common/random.h"
 #include "sim/jacobian.h"
@@ -39,8 +40,8 @@ static double distance(const struct balloon *a, const struct balloon *b)
     return sqrt(sum / a->sim.point_count) / 45;
 }
 
-/* A second of rising and swinging, with springs, dampers and pressure. Against RK4 in steps of 1/3200 s, whose error is below
- * 1e-11: the rate of the last of three halvings is within .2 of the order. */
+/* A second of rising and swinging, with springs, dampers and pressure. Against RK4 in steps of 1/3200 s,
+ * whose error is below 1e-11: the rate of the last of three halvings is within .2 of the order. */
 static void each_method_has_its_order(void **state)
 {
     (void)state;
@@ -66,10 +67,10 @@ static void each_method_has_its_order(void **state)
     close_balloon(&exact);
 }
 
-/* One spring in twenty a million times stiffer: explicit methods must resolve its swing, 2 / sqrt(2 k / m) = 3e-4 s. Steps
- * of .32 s are a thousand times that. The balloon must do what it does without numbers to blame: stay near the size that
- * springs and pressure balance at, without energy from nowhere (what pressure can have done is P x way x points, and the
- * ways here are below the radius). */
+/* One spring in twenty a million times stiffer: explicit methods must resolve its swing, 2 / sqrt(2 k / m) =
+ * 3e-4 s. Steps of .32 s are a thousand times that. The balloon must do what it does without numbers to
+ * blame: stay near the size that springs and pressure balance at, without energy from nowhere (what pressure
+ * can have done is P x way x points, and the ways here are below the radius). */
 static void a_thousand_times_the_explicit_limit_at_a_contrast_of_a_million(void **state)
 {
     (void)state;
@@ -85,8 +86,8 @@ static void a_thousand_times_the_explicit_limit_at_a_contrast_of_a_million(void 
             steps(&b, 1);
             const double radius = sim_measure(&b.sim).mean_radius;
             assert_true(radius > 40 && radius < 60);
-            if (m <
-                3) /* what xpbd's pass leaves in the stiff springs is too small to see, and half of the energy */
+            /* What xpbd's pass leaves in the stiff springs is too small to see, and half of the energy. */
+            if (m < 3)
                 assert_true(energy(&b) < 2 * 45 * b.sim.point_count);
         }
         close_balloon(&b);
@@ -112,9 +113,10 @@ static void make_linear(struct balloon *b)
         b->sim.rest_length[e] = 0;
 }
 
-/* The midpoint rule keeps every quadratic invariant; what is left is the solver's. Newton's method stops at a millionth of a
- * step's change at the latest, and its last step makes that some 1e-4 of it again: 1e-10 of the energy that goes to and fro
- * within a step, in each of 100. Steps are twice the explicit limit, 2 / sqrt(12 k / m) = .13 s. */
+/* The midpoint rule keeps every quadratic invariant; what is left is the solver's. Newton's method stops at a
+ * millionth of a step's change at the latest, and its last step makes that some 1e-4 of it again: 1e-10 of
+ * the energy that goes to and fro within a step, in each of 100. Steps are twice the explicit limit, 2 /
+ * sqrt(12 k / m) = .13 s. */
 static void the_midpoint_rule_keeps_quadratic_energy(void **state)
 {
     (void)state;
@@ -159,8 +161,9 @@ static void the_midpoint_rule_keeps_momentum_and_angular_momentum(void **state)
     close_balloon(&b);
 }
 
-/* In each step, also one of ten times the explicit limit; where springs are linear that is a theorem (for TR-BDF2: L-stable, |R| <= 1 on the imaginary
- * axis), up to the linear solver's 1e-6 of what a step changes. */
+/* In each step, also one of ten times the explicit limit; where springs are linear that is a
+ * theorem (for TR-BDF2: L-stable, |R| <= 1 on the imaginary axis), up to the linear solver's 1e-6
+ * of what a step changes. */
 static void backward_euler_and_bdf2_never_gain_energy(void **state)
 {
     (void)state;
@@ -233,8 +236,8 @@ static void several_groups_of_points_give_the_same_bits_on_several_threads(void 
     close_balloon(&one);
 }
 
-/* Pressure, stiffness, damping and step far beyond the paper's, one at a time and all together: each method gets on with
- * numbers that are finite and a balloon that bursts, or says why it does not. */
+/* Pressure, stiffness, damping and step far beyond the paper's, one at a time and all together: each method
+ * gets on with numbers that are finite and a balloon that bursts, or says why it does not. */
 static void steps_beyond_reason_are_solved_or_refused(void **state)
 {
     (void)state;
@@ -295,8 +298,8 @@ static void what_has_no_solution_is_refused_with_time_and_point(void **state)
     }
 }
 
-/* M x - a K x - b D x against the right-hand side, in the solver's own measure: the residual's recurrence loses a little to
- * rounding, some 1e-12 of the whole. */
+/* M x - a K x - b D x against the right-hand side, in the solver's own measure: the residual's recurrence
+ * loses a little to rounding, some 1e-12 of the whole. */
 static void the_solver_solves_what_is_not_symmetric(void **state)
 {
     (void)state;
@@ -341,8 +344,8 @@ static void who_finds_no_solution_is_named_with_who_chose_it(void **state)
     close_balloon(&b);
 }
 
-/* In a skin that is pulled and has been shaken. Without the membrane's share in the preconditioner six digits take 39 iterations, with it
- * 19. */
+/* In a skin that is pulled and has been shaken. Without the membrane's share in the preconditioner six digits
+ * take 39 iterations, with it 19. */
 static void the_solver_knows_of_a_membrane(void **state)
 {
     (void)state;

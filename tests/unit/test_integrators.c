@@ -8,8 +8,8 @@ static double energy(struct balloon *b)
     return m.kinetic_energy + m.elastic_energy;
 }
 
-/* Over 4 thousand steps without damping or pressure a symplectic method's energy wavers, but does not drift, which would
- * double its worst error from the first half to the second. */
+/* Over 4 thousand steps without damping or pressure a symplectic method's energy wavers, but does not drift,
+ * which would double its worst error from the first half to the second. */
 static void symplectic_methods_keep_the_energy(void **state)
 {
     (void)state;
@@ -31,8 +31,8 @@ static void symplectic_methods_keep_the_energy(void **state)
     }
 }
 
-/* How far the ledger is out of balance at the end, over the kinetic energy: the error of scalars that are integrated along.
- * Keeping it changes no bit of the state. */
+/* How far the ledger is out of balance at the end, over the kinetic energy: the error of scalars that are
+ * integrated along. Keeping it changes no bit of the state. */
 static double imbalance(const char *integrator, const char *also)
 {
     struct error err = {0};
@@ -77,7 +77,8 @@ static void put_back(struct sim *to, struct sim *from)
             memcpy(a[i].data, b[i].data, a[i].size);
 }
 
-/* Into a sim that has just been opened, and into one that went astray meanwhile; before and after something broke. */
+/* Into a sim that has just been opened, and into one that went astray meanwhile; before and
+ * after something broke. */
 static void a_state_that_is_put_back_goes_on_to_the_same_bits(void **state)
 {
     (void)state;
@@ -137,7 +138,8 @@ static void any_number_of_threads_gives_the_same_bits(void **state)
     }
 }
 
-/* A state in the middle of a step, and what a fine run says of that moment: fourth order, as far as a step is. */
+/* A state in the middle of a step, and what a fine run says of that moment: fourth
+ * order, as far as a step is. */
 static void a_look_inside_a_step_sees_what_was_there_and_disturbs_nothing(void **state)
 {
     (void)state;
@@ -208,8 +210,8 @@ static void adaptive_steps_meet_the_schedule_and_the_end_exactly(void **state)
     }
 }
 
-/* A method that remembers must not go on with what was true before an event: three steps at rest, and the fourth, under
- * pressure, is as a first one under pressure. */
+/* A method that remembers must not go on with what was true before an event: three steps at rest, and the
+ * fourth, under pressure, is as a first one under pressure. */
 static void after_an_event_nothing_remembered_is_used(void **state)
 {
     (void)state;

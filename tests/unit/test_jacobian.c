@@ -4,7 +4,8 @@
 #include "sim/jacobian.h"
 #include "sim/vectors.h"
 
-/* A balloon out of round and in motion, its points moved by up to `size`, a few of its edges and triangles gone. */
+/* A balloon out of round and in motion, its points moved by up to `size`, a few of its
+ * edges and triangles gone. */
 static void open_shaken(struct balloon *b, unsigned level, double size, const char *const *changes)
 {
     uint64_t random = 11;
@@ -25,9 +26,9 @@ static void close_shaken(struct balloon *b)
     close_balloon(b);
 }
 
-/* Products along random directions of size 1 must be the differences. Lengths are about 15 (level 2), so that with h = 1e-3
- * each derivative brings a factor of about 1/5 at worst: h^4 f'''''/30 is 1e-12 / 30 / 5^5 of f, and rounding 2e-16 f / h =
- * 2e-13 f; forces are some 1000 and the tolerance is 100 times that. */
+/* Products along random directions of size 1 must be the differences. Lengths are about 15 (level 2), so that
+ * with h = 1e-3 each derivative brings a factor of about 1/5 at worst: h^4 f'''''/30 is 1e-12 / 30 / 5^5 of
+ * f, and rounding 2e-16 f / h = 2e-13 f; forces are some 1000 and the tolerance is 100 times that. */
 static void check_shaken(const char *const *changes, bool whole)
 {
     struct balloon b;
@@ -106,7 +107,8 @@ static void products_of_pressure_on_areas_are_the_differences_of_its_forces(void
                             "balloons[0].damping=0", "balloons[0].spring=0"));
 }
 
-/* Torn as the paper tears, a balloon is not closed, and a volume without its rims is no function of places alone: whole, then. */
+/* Torn as the paper tears, a balloon is not closed, and a volume without its rims is no function of
+ * places alone: whole, then. */
 static void products_of_gas_are_the_differences_of_its_forces(void **state)
 {
     (void)state;
@@ -130,7 +132,8 @@ static void products_of_string_and_pins_are_the_differences_of_their_forces(void
                             "balloons[0].pins.reach=30"));
 }
 
-/* a K dx + b D dx in one go: the product is linear, to the rounding of its sums of some 20 terms of at most 1e3. */
+/* a K dx + b D dx in one go: the product is linear, to the rounding of its sums of some
+ * 20 terms of at most 1e3. */
 static void factors_scale_the_two_parts_of_a_product(void **state)
 {
     (void)state;
@@ -179,7 +182,8 @@ static void diagonal_blocks_are_those_of_the_products(void **state)
     close_shaken(&b);
 }
 
-/* A body that moves as one feels no change: K times a translation is 0 to rounding, springs and pressure alike. */
+/* A body that moves as one feels no change: K times a translation is 0 to rounding,
+ * springs and pressure alike. */
 static void moving_as_one_changes_no_force(void **state)
 {
     (void)state;
@@ -196,7 +200,8 @@ static void moving_as_one_changes_no_force(void **state)
     close_shaken(&b);
 }
 
-/* Coincident points, a triangle without area and a point that has lost its skin have derivatives that are numbers. */
+/* Coincident points, a triangle without area and a point that has lost its skin have
+ * derivatives that are numbers. */
 static void what_has_no_length_or_area_has_no_derivative(void **state)
 {
     (void)state;

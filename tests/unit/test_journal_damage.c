@@ -1,11 +1,13 @@
-/* Journals that are cut off, damaged or foreign, and programs that are killed: what was whole is recovered. */
+/* Journals that are cut off, damaged or foreign, and programs that are killed: what
+ * was whole is recovered. */
 #include "journals.h"
 
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 
-/* A journal of this many chips, each of one cell, and a header; each line's end is an operation's boundary. */
+/* A journal of this many chips, each of one cell, and a header; each line's end is
+ * an operation's boundary. */
 enum { CHIPS = 12, LINE_SIZE = 128 };
 
 static void chip_line(int i, char line[LINE_SIZE])

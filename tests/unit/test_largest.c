@@ -37,8 +37,8 @@ static double largest_of_all(const struct field *field)
     return most;
 }
 
-/* The search climbs to the top, so it finds no less than the middles have, whether it looks at each leaf or, with a wide sigma, at
- * few of them. */
+/* The search climbs to the top, so it finds no less than the middles have, whether it looks at each leaf or,
+ * with a wide sigma, at few of them. */
 static void few_places_find_as_much_as_all(void **state)
 {
     (void)state;

@@ -40,9 +40,10 @@ static double middle_light(const struct render_skin *skins, size_t count)
     return light;
 }
 
-/* What a film lets through is found by changing what lies behind it. A slab of index 1.52 seen straight on reflects
- * F = (0.52 / 2.52)^2 at each side; inside, light falls by the film's depth over the stretch; at rest depth is such that 0.2 is
- * left. One step of 255 is 0.005 of light there, the difference behind 0.2: a tenth is 4 steps. */
+/* What a film lets through is found by changing what lies behind it. A slab of index 1.52 seen straight
+ * on reflects F = (0.52 / 2.52)^2 at each side; inside, light falls by the film's depth over the stretch;
+ * at rest depth is such that 0.2 is left. One step of 255 is 0.005 of light there, the difference behind
+ * 0.2: a tenth is 4 steps. */
 static void film_thins_by_the_law_of_beer_and_lambert(void **state)
 {
     (void)state;
@@ -81,9 +82,9 @@ static double leaves(double cosine)
     return 1 - (across * across + along * along) / 2;
 }
 
-/* A card that is seen 3 degrees from its edge, where the mirror shows the dark behind it. Smooth it is nearly black; of a rough one facets are seen that
- * are turned to the eye, whose mean cosine edge-on is sqrt(pi)/2 of the roughness. One step of 255 in the smooth one's 20 is a tenth of its
- * light. */
+/* A card that is seen 3 degrees from its edge, where the mirror shows the dark behind it. Smooth it is nearly
+ * black; of a rough one facets are seen that are turned to the eye, whose mean cosine edge-on is sqrt(pi)/2
+ * of the roughness. One step of 255 in the smooth one's 20 is a tenth of its light. */
 static void rough_latex_is_not_black_at_its_rims(void **state)
 {
     (void)state;
@@ -112,8 +113,8 @@ static int brightest(const struct image *image)
     return most;
 }
 
-/* Roughness falls with the stretch: a highlight of the same light becomes smaller and brighter. Black rubber shows nothing
- * else. */
+/* Roughness falls with the stretch: a highlight of the same light becomes smaller and brighter. Black
+ * rubber shows nothing else. */
 static void stretched_latex_shines_more(void **state)
 {
     (void)state;
@@ -137,8 +138,8 @@ static void stretched_latex_shines_more(void **state)
     sphere_free(&mesh);
 }
 
-/* The wall of a closed skin glows; once a cap is cut off, less light is inside, and the rim is thicker: the picture changes far
- * from the hole. */
+/* The wall of a closed skin glows; once a cap is cut off, less light is inside, and the rim is thicker: the
+ * picture changes far from the hole. */
 static void a_torn_skin_loses_its_inner_light(void **state)
 {
     (void)state;
@@ -174,7 +175,8 @@ static double difference(const struct image *a, const struct image *b)
     return (double)count / all;
 }
 
-/* Three spheres through one another: up to six layers, none of them in order by whole triangles where they cross. */
+/* Three spheres through one another: up to six layers, none of them in order by whole
+ * triangles where they cross. */
 struct spheres {
     struct mesh mesh[3];
     struct render_skin skin[3];
@@ -205,8 +207,8 @@ static void free_spheres(struct spheres *s)
         sphere_free(&s->mesh[i]);
 }
 
-/* Two ways to the exact order agree; half floats round differently on them, by 2^-11 a layer. Sorting errs where triangles
- * cross, no order at all nearly everywhere. */
+/* Two ways to the exact order agree; half floats round differently on them, by 2^-11 a layer. Sorting errs
+ * where triangles cross, no order at all nearly everywhere. */
 static void lists_and_peeling_agree_and_sorting_nearly(void **state)
 {
     (void)state;
@@ -236,7 +238,8 @@ static void lists_and_peeling_agree_and_sorting_nearly(void **state)
     free_spheres(&s);
 }
 
-/* 40 layers on every pixel, twenty times what the lists first have room for; each is deep enough to be told from 39. */
+/* 40 layers on every pixel, twenty times what the lists first have room for; each is deep
+ * enough to be told from 39. */
 static void lists_grow_with_their_layers(void **state)
 {
     (void)state;

@@ -15,9 +15,10 @@ static double error_at(const char *integrator, double step, double *scale)
     return account.error;
 }
 
-/* The scalars are integrated as the points are, so the balance is as good as they are. Halving the step divides the error by
- * 2^order, up to the next order's share: within a tenth of the order at these steps. Where the error is down at the round-off of
- * a few hundred steps (1e-13 of the work) there is nothing left to be halved. */
+/* The scalars are integrated as the points are, so the balance is as good as they are. Halving the step
+ * divides the error by 2^order, up to the next order's share: within a tenth of the order at these
+ * steps. Where the error is down at the round-off of a few hundred steps (1e-13 of the work) there is
+ * nothing left to be halved. */
 static void its_error_falls_with_the_integrators_order(void **state)
 {
     (void)state;
@@ -46,8 +47,8 @@ static void at_rest_all_accounts_stay_at_zero(void **state)
     close_balloon(&b);
 }
 
-/* An edge lets go at one moment: what its spring held goes over into the account, so the sum stays, up to the round-off of
- * adding up the energies of all edges (1e-16 x their number x their sum). */
+/* An edge lets go at one moment: what its spring held goes over into the account, so the sum stays, up to the
+ * round-off of adding up the energies of all edges (1e-16 x their number x their sum). */
 static void what_a_breaking_edge_held_is_counted_exactly(void **state)
 {
     (void)state;
@@ -81,7 +82,8 @@ static void a_scheduled_change_of_springs_is_the_users_work(void **state)
     close_balloon(&b);
 }
 
-/* From the start to the dust, with first order's error of the paper's step: the sum holds to a few per cent. */
+/* From the start to the dust, with first order's error of the paper's step: the sum
+ * holds to a few per cent. */
 static void it_balances_through_a_burst(void **state)
 {
     (void)state;
@@ -101,8 +103,8 @@ static void it_balances_through_a_burst(void **state)
     assert_true(error[0] < 0.02 && error[1] < 0.6 * error[0]);
 }
 
-/* Where a method looks back inside a step, what broke at its end is whole again, also in the accounts: the error stays that of
- * the tolerance (1e-5 a step), far below what the springs that let go had held. */
+/* Where a method looks back inside a step, what broke at its end is whole again, also in the accounts: the
+ * error stays that of the tolerance (1e-5 a step), far below what the springs that let go had held. */
 static void a_look_inside_a_step_finds_the_accounts_as_they_were(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* The membrane's forces against its energy, its derivatives against its forces, and both against what must not matter. */
+/* The membrane's forces against its energy, its derivatives against its forces, and both
+ * against what must not matter. */
 #include "books.h"
 #include "common/vec3.h"
 #include "differences.h"
@@ -15,8 +16,9 @@ static double elastic(struct sim *sim)
     return membrane_elastic(sim, sim->balloons);
 }
 
-/* -f . dx against (8 (E(h) - E(-h)) - (E(2h) - E(-2h))) / (12 h), h = 1e-5 of edges of .3. Rounding of E, near 20: 20 x 2e-16/h = 4e-10.
- * Where a triangle is about to wrinkle within 2 h, E'' jumps by about 1, and the difference is wrong by h/2 or so of that triangle's share. */
+/* -f . dx against (8 (E(h) - E(-h)) - (E(2h) - E(-2h))) / (12 h), h = 1e-5 of edges of .3. Rounding of E,
+ * near 20: 20 x 2e-16/h = 4e-10. Where a triangle is about to wrinkle within 2 h, E'' jumps by about 1, and
+ * the difference is wrong by h/2 or so of that triangle's share. */
 static void check_forces(const char *const *changes)
 {
     for (int k = 0; k < SHAPES; k++) {
@@ -46,8 +48,9 @@ static void forces_are_the_slope_of_the_energy(void **state)
     check_forces(RUBBER("balloons[0].membrane.compression=1"));
 }
 
-/* With h = 1e-5 and edges of .3 what is left out is below 1e-15 of f, and rounding is f x 2e-16/h = 2e-11 f; forces are below 100. A
- * triangle whose wrinkling begins within 2 h is not among these: with another seed one might be. */
+/* With h = 1e-5 and edges of .3 what is left out is below 1e-15 of f, and rounding is f x 2e-16/h =
+ * 2e-11 f; forces are below 100. A triangle whose wrinkling begins within 2 h is not among these: with
+ * another seed one might be. */
 static void check_products(const char *const *changes, const double shape[3])
 {
     struct balloon b;
@@ -76,8 +79,9 @@ static void products_are_the_differences_of_the_forces(void **state)
         }
 }
 
-/* At rest a skin is about to wrinkle, with stretches that are equal up to rounding, and what is divided by their difference must not show:
- * however little it was shaken, |dx . K dx| is at most what the guard's springs make of dx. */
+/* At rest a skin is about to wrinkle, with stretches that are equal up to rounding, and what is divided
+ * by their difference must not show: however little it was shaken, |dx . K dx| is at most what the
+ * guard's springs make of dx. */
 static void products_are_no_larger_than_the_bound_near_rest(void **state)
 {
     (void)state;
@@ -147,7 +151,8 @@ static void results_are_equal_for_any_number_of_threads(void **state)
     }
 }
 
-/* Turning and moving the balloon as a whole stretches nothing: its energy stays 0 to the rounding of lengths, squared. */
+/* Turning and moving the balloon as a whole stretches nothing: its energy stays 0 to the
+ * rounding of lengths, squared. */
 static void a_membrane_that_only_turns_holds_nothing(void **state)
 {
     (void)state;
@@ -207,7 +212,8 @@ static void the_guards_bound_holds_for_a_membrane(void **state)
     close_balloon(&b);
 }
 
-/* Kinetic, elastic and dissipated energy add up: symplectic Euler's error is of first order in the step, and falls with it. */
+/* Kinetic, elastic and dissipated energy add up: symplectic Euler's error is of first order in the
+ * step, and falls with it. */
 static void the_ledger_balances(void **state)
 {
     (void)state;

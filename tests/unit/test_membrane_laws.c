@@ -2,8 +2,8 @@
 #include "membranes.h"
 #include "sim/membrane_kernels.h"
 
-/* Uniaxial: pulled to 2 along x while y and z shrink far below 2^-1/2, a triangle holds what neo-Hookean rubber does when pulled: W =
- * (4 + 2/2 - 3)/2 = 1, and pulls along x alone with 2 - 1/4. */
+/* Uniaxial: pulled to 2 along x while y and z shrink far below 2^-1/2, a triangle holds what neo-Hookean
+ * rubber does when pulled: W = (4 + 2/2 - 3)/2 = 1, and pulls along x alone with 2 - 1/4. */
 static void a_wrinkled_triangle_holds_what_a_pulled_strip_does(void **state)
 {
     (void)state;
@@ -70,7 +70,8 @@ static void slack_skin_pushes_by_no_law(void **state)
     }
 }
 
-/* At small strain every law is the same: 12 mu e^2/2 when stretched alike both ways, to e itself in relation. */
+/* At small strain every law is the same: 12 mu e^2/2 when stretched alike both ways,
+ * to e itself in relation. */
 static void all_laws_agree_at_small_strain(void **state)
 {
     (void)state;
@@ -91,7 +92,8 @@ static void all_laws_agree_at_small_strain(void **state)
     }
 }
 
-/* |W - V| of two responses and their derivatives, over what each is made of: E = L1^n + L2^n + L3^n, by a and D as powers go. */
+/* |W - V| of two responses and their derivatives, over what each is made of: E = L1^n + L2^n + L3^n,
+ * by a and D as powers go. */
 static double largest_difference(const struct membrane_response *w, const struct membrane_response *v,
                                  const double scale[2], double e, bool second)
 {
@@ -103,8 +105,9 @@ static double largest_difference(const struct membrane_response *w, const struct
                 fmax(fabs(w->ad - v->ad) * scale[0] / by_d, fabs(w->dd - v->dd) * scale[1] / by_d));
 }
 
-/* The way of any power is the oracle of that of whole ones. It is the less exact of the two: its D^h loses |h ln D| <= 13 roundings of 4e-16, and
- * where x - 1 is just past 1e-3 its second derivatives are differences over 2e-3, in which some 4 roundings of 1 become 4e-13. */
+/* The way of any power is the oracle of that of whole ones. It is the less exact of the two: its D^h loses |h
+ * ln D| <= 13 roundings of 4e-16, and where x - 1 is just past 1e-3 its second derivatives are differences
+ * over 2e-3, in which some 4 roundings of 1 become 4e-13. */
 static void whole_powers_are_multiplied_out_to_what_they_are(void **state)
 {
     (void)state;

@@ -273,8 +273,8 @@ static void neighbours_get_near_numbers_and_the_shape_stays(void **state)
     assert_ok(mesh_order(&mesh, &err), &err);
     assert_near(mesh_volume(&mesh), volume, 1e-12);
     assert_near(mesh_area(&mesh), area, 1e-12);
-    /* A front of the walk is at most about as long as the equator, 40 points here (642 points lie 12 to a unit of angle),
-     * and an edge joins a front to the next: at random the mean would be 214. */
+    /* A front of the walk is at most about as long as the equator, 40 points here (642 points lie 12 to a
+     * unit of angle), and an edge joins a front to the next: at random the mean would be 214. */
     for (uint32_t e = 0; e < mesh.edge_count; e++)
         assert_true(mesh.edge[e][1] - mesh.edge[e][0] < 100);
     for (uint32_t t = 1; t < mesh.triangle_count; t++) {

@@ -22,8 +22,8 @@ static const char ascii_stl[] = "solid a\nfacet normal 0 0 1\nouter loop\nvertex
                                 "vertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
 static const char obj[] = "v 0 0 0\nv 1 \\\n0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2/1/1 -1\nf 3 2 1 3\n";
 
-/* Reads the first `size` bytes from a block of its own, with the NUL that file_read() puts behind them. True when
- * they are a mesh. */
+/* Reads the first `size` bytes from a block of its own, with the NUL that file_read() puts behind them.
+ * True when they are a mesh. */
 static bool read_some(reader *read, const void *data, size_t size)
 {
     struct error err = {0};

@@ -51,8 +51,8 @@ static void own_reader_reads_the_skin_back(void **state)
     close_balloon(&b);
 }
 
-/* Of a sphere that is blown up to twice its size as a whole: areas 4 times those at rest, one piece, and the opacity of the film at a quarter of
- * its thickness, 1 - (1 - .97)^(1/4); to a float's rounding. */
+/* Of a sphere that is blown up to twice its size as a whole: areas 4 times those at rest, one piece, and the
+ * opacity of the film at a quarter of its thickness, 1 - (1 - .97)^(1/4); to a float's rounding. */
 static void points_tell_stretch_opacity_and_piece(void **state)
 {
     (void)state;
@@ -142,7 +142,8 @@ static void a_run_that_goes_on_keeps_the_list_of_its_first_part(void **state)
     close_balloon(&b);
 }
 
-/* The head is 32 bytes; then 3 floats for each point of each sample; the mesh beside it has as many points. */
+/* The head is 32 bytes; then 3 floats for each point of each sample; the mesh beside
+ * it has as many points. */
 static void a_cache_holds_the_places_of_its_meshs_points(void **state)
 {
     (void)state;

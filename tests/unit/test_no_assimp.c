@@ -1,5 +1,5 @@
-/* Where assimp is not there: when the programs were built (no_assimp.c), or when they run (mesh_assimp.c, with the name of a
- * library that nobody has). */
+/* Where assimp is not there: when the programs were built (no_assimp.c), or when they run (mesh_assimp.c,
+ * with the name of a library that nobody has). */
 #include "check.h"
 #include "common/mesh_files.h"
 

@@ -60,8 +60,8 @@ static void measure(struct ball *ball, const int cell[3], int side)
     ball->count++;
 }
 
-/* The Gaussian has a deviation of 1.5 cells and a cell is in or out: a third of a cell at a lever of two, some ten degrees
- * at worst; a face's own direction would be wrong by up to 55 degrees. */
+/* The Gaussian has a deviation of 1.5 cells and a cell is in or out: a third of a cell at a lever of two,
+ * some ten degrees at worst; a face's own direction would be wrong by up to 55 degrees. */
 static void a_ball_of_cells_is_lit_as_a_ball(void **state)
 {
     (void)state;

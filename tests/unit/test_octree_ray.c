@@ -38,8 +38,8 @@ static struct octree random_tree(unsigned depth, uint64_t *seed)
     return tree;
 }
 
-/* The definition, one plane at a time, from wherever the ray begins; the planes' times as octree_ray() has them, so
- * that both agree on what comes first to the bit. */
+/* The definition, one plane at a time, from wherever the ray begins; the planes' times as octree_ray() has
+ * them, so that both agree on what comes first to the bit. */
 static bool march(const struct octree *tree, const struct ray *ray, struct octree_hit *hit)
 {
     const int side = 1 << tree->depth;

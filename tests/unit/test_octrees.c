@@ -1,6 +1,7 @@
 /*
- * Whatever the sculpture, the mesh is whole: test_octrees [HOW_MANY] random octrees, and every way to fill 2 x 2 x 2
- * cells, which makes every pattern of inside and outside corners at a cell of the grid and at its faces.
+ * Whatever the sculpture, the mesh is whole: test_octrees [HOW_MANY] random octrees, and every way
+ * to fill 2 x 2 x 2 cells, which makes every pattern of inside and outside corners at a cell of the
+ * grid and at its faces.
  */
 #include "check.h"
 #include "common/mesh_measure.h"
@@ -24,7 +25,8 @@ static int below(uint64_t *seed, int limit)
     return (int)(random_unit(seed) * limit);
 }
 
-/* Cells at random, from nearly none to nearly all, in a window of at most four cells a side somewhere in the tree. */
+/* Cells at random, from nearly none to nearly all, in a window of at most four cells a side
+ * somewhere in the tree. */
 static void add_dust(struct octree *tree, uint64_t *seed)
 {
     int side = 1 << tree->depth, window = side < 4 ? side : 2 + below(seed, 3);
@@ -37,8 +39,8 @@ static void add_dust(struct octree *tree, uint64_t *seed)
     }
 }
 
-/* A box of three to five cells a side with what makes trouble: a tunnel, a cavity, walls of one cell, cubes that touch
- * along an edge or at a corner. */
+/* A box of three to five cells a side with what makes trouble: a tunnel, a cavity, walls of one cell, cubes
+ * that touch along an edge or at a corner. */
 static void add_shape(struct octree *tree, uint64_t *seed)
 {
     int size = 3 + below(seed, 3), side = 1 << tree->depth, what = below(seed, 5), axis = below(seed, 3);
@@ -93,8 +95,8 @@ static void assert_whole(const struct mesh *mesh)
     assert_int_equal(report.pinched_points, 0);
 }
 
-/* Where a part reaches furthest along x the field falls outwards on an outer shell, and inwards, towards -x, on a
- * cavity. Its volume, which is the triangles' winding, has the sign that goes with it. */
+/* Where a part reaches furthest along x the field falls outwards on an outer shell, and inwards, towards -x,
+ * on a cavity. Its volume, which is the triangles' winding, has the sign that goes with it. */
 static void assert_wound_as_the_field_says(const struct mesh *mesh, const struct surface_census *census)
 {
     uint32_t(*edge)[2] = mesh->edge, *part = calloc(mesh->point_count, sizeof *part);
@@ -160,12 +162,13 @@ static long euler_at(const struct octree *tree, const struct surface_options *op
     return shape.euler;
 }
 
-/* Whether the field has the same shape on a grid four times finer. With sigma 0.35 the field's saddles lie, in the middle
- * of an edge of one cell with two cells diagonally at it, at 2/4 erf(0.5 / (0.35 sqrt 2)) = 0.42, on longer edges at up
- * to 0.5, with three cells at 0.64 to 0.75, at a corner with two cells diagonally at it at 0.25. At a threshold within a
- * few hundredths of one of these the gap or bridge is narrower than a cube of a third of a cell, and its shape depends on
- * where the grid lies. The thresholds here keep away from them; the odd saddle that still comes near one (two in ten
- * thousand octrees) shows itself in that the shapes agree at thresholds to both sides. */
+/* Whether the field has the same shape on a grid four times finer. With sigma 0.35 the field's saddles lie,
+ * in the middle of an edge of one cell with two cells diagonally at it, at 2/4 erf(0.5 / (0.35 sqrt 2)) =
+ * 0.42, on longer edges at up to 0.5, with three cells at 0.64 to 0.75, at a corner with two cells diagonally
+ * at it at 0.25. At a threshold within a few hundredths of one of these the gap or bridge is narrower than a
+ * cube of a third of a cell, and its shape depends on where the grid lies. The thresholds here keep away from
+ * them; the odd saddle that still comes near one (two in ten thousand octrees) shows itself in that the
+ * shapes agree at thresholds to both sides. */
 static void compare_with_finer(const struct octree *tree, const struct surface_options *options, long euler)
 {
     compared++;

@@ -57,8 +57,8 @@ static void and_with_damping(void **state)
     every_fixed_step_has_its_order(MOVING_DAMPED);
 }
 
-/* A tenth of the tolerance, a tenth of the error, within a factor of 4 from decade to decade: local errors of fifth order are
- * kept at the tolerance by steps whose number grows by 10^(1/5). */
+/* A tenth of the tolerance, a tenth of the error, within a factor of 4 from decade to decade: local errors of
+ * fifth order are kept at the tolerance by steps whose number grows by 10^(1/5). */
 static void the_adaptive_methods_error_is_proportional_to_their_tolerance(void **state)
 {
     (void)state;
@@ -86,10 +86,12 @@ static void the_adaptive_methods_error_is_proportional_to_their_tolerance(void *
     close_balloon(&reference);
 }
 
-/* Every order condition up to the fifth order (Butcher 1963: 17 trees), each the product of what hangs on the root. */
+/* Every order condition up to the fifth order (Butcher 1963: 17 trees), each the product of
+ * what hangs on the root. */
 static void tree(const struct runge_kutta *method, const char **shape, double *value)
 {
-    /* "[" opens a node, "]" closes it: value[i] becomes the product over its branches of sum_j a_ij branch_j. */
+    /* "[" opens a node, "]" closes it: value[i] becomes the product over its branches
+     * of sum_j a_ij branch_j. */
     double branch[RUNGE_KUTTA_STAGES_MAX];
     for (int i = 0; i < method->stages; i++)
         value[i] = 1;
@@ -139,8 +141,8 @@ static void the_tableaux_meet_all_order_conditions(void **state)
         }
 }
 
-/* The conditions of fourth order for x'' = f(x) (Nystroem; Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I,
- * II.14), with the kicks b at the times c, and a_ij = b_j (c_i - c_j). */
+/* The conditions of fourth order for x'' = f(x) (Nystroem; Hairer, Norsett & Wanner, Solving Ordinary
+ * Differential Equations I, II.14), with the kicks b at the times c, and a_ij = b_j (c_i - c_j). */
 static void the_kicks_and_drifts_of_rkn4_meet_all_order_conditions(void **state)
 {
     (void)state;
@@ -176,7 +178,8 @@ static double half_trace_of_rkn4(double z)
     return (x[0] + v[1]) / 2;
 }
 
-/* What a decay at the rate z becomes in a step: each kick the classic Runge-Kutta method's fourth-order series. */
+/* What a decay at the rate z becomes in a step: each kick the classic Runge-Kutta
+ * method's fourth-order series. */
 static double decay_of_rkn4(double z)
 {
     double product = 1;
@@ -204,8 +207,8 @@ static void the_stated_limits_of_rkn4_and_rk4_are_where_they_lose_stability(void
     assert_near(1 - z * (1 - z / 2 * (1 - z / 3 * (1 - z / 4))), 1, 1e-5);
 }
 
-/* What rkn4 does to an oscillator in one step of dt w = z is off by z^5 at most: its coefficients meet every condition that a
- * linear force can test. */
+/* What rkn4 does to an oscillator in one step of dt w = z is off by z^5 at most: its coefficients meet every
+ * condition that a linear force can test. */
 static void a_step_of_rkn4_is_off_by_the_fifth_power(void **state)
 {
     (void)state;

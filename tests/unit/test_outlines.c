@@ -1,4 +1,5 @@
-/* Outlines whose steps are smoothed in the picture are nearly as good as those of several samples, and nothing else changes. */
+/* Outlines whose steps are smoothed in the picture are nearly as good as those of several samples,
+ * and nothing else changes. */
 #include "cards.h"
 #include "sphere.h"
 
@@ -12,8 +13,9 @@ static double mean_error(const struct image *image, const struct image *truth)
     return sum / (double)count;
 }
 
-/* Against 4 x 4 samples. A pixel that an outline crosses is wrong by a quarter of its contrast on the mean when it is all within or all
- * without; were it right to an eighth, as one of four samples in a row can be, half of that would be left: asked is less than 0.7. */
+/* Against 4 x 4 samples. A pixel that an outline crosses is wrong by a quarter of its contrast on the mean
+ * when it is all within or all without; were it right to an eighth, as one of four samples in a row can be,
+ * half of that would be left: asked is less than 0.7. */
 static void filtered_outlines_are_nearer_to_the_truth_than_rough_ones(void **state)
 {
     (void)state;

@@ -63,8 +63,8 @@ static void lists_with_most_samples_are_the_reference(void **state)
         assert_true(&swelling.rows[i] == row || swelling.rows[i].mean > 0);
 }
 
-/* Half floats round differently on the two ways, by 2^-11 a layer: after the tone curve, whose slope in sRGB is below 2 where skin is, two layers are
- * less than 0.5 of 255 apart, which rounds to 1, and seldom. */
+/* Half floats round differently on the two ways, by 2^-11 a layer: after the tone curve, whose slope in sRGB
+ * is below 2 where skin is, two layers are less than 0.5 of 255 apart, which rounds to 1, and seldom. */
 static void peeling_agrees_with_lists(void **state)
 {
     (void)state;
@@ -73,8 +73,8 @@ static void peeling_agrees_with_lists(void **state)
     assert_true(row->mean < 0.05);
 }
 
-/* The back wall of a closed skin over its front one is another picture; sorted, a convex one's triangles are in order but for
- * slivers at its rim. */
+/* The back wall of a closed skin over its front one is another picture; sorted, a convex one's triangles are
+ * in order but for slivers at its rim. */
 static void no_order_is_worse_than_sorting(void **state)
 {
     (void)state;

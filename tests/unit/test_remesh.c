@@ -1,4 +1,5 @@
-/* Single collapses, flips and splits, and what a relaxation makes of a mesh: closed, whole, of the same shape. */
+/* Single collapses, flips and splits, and what a relaxation makes of a mesh: closed,
+ * whole, of the same shape. */
 #include "check.h"
 #include "common/mesh.h"
 #include "folder.h"
@@ -29,7 +30,8 @@ static struct remesh opened(struct mesh mesh)
     return r;
 }
 
-/* Closes it and sees that every edge is run along once in each sense and how many points and triangles there are. */
+/* Closes it and sees that every edge is run along once in each sense and how many points
+ * and triangles there are. */
 static void assert_result(struct remesh *r, uint32_t points, uint32_t triangles, long euler)
 {
     struct mesh mesh = {0};
@@ -49,7 +51,8 @@ static void assert_result(struct remesh *r, uint32_t points, uint32_t triangles,
     remesh_clear(&again);
 }
 
-/* Across and back again is the same side, the other way round; each point's degree is the length of its ring. */
+/* Across and back again is the same side, the other way round; each point's degree is
+ * the length of its ring. */
 static void assert_linked(const struct remesh *r)
 {
     uint32_t ring[RING_MAX];
@@ -84,9 +87,9 @@ static void a_collapse_takes_a_point_and_two_triangles(void **state)
     }
 }
 
-/* An octahedron without a point is a double pyramid over a triangle: its tips have three neighbours, the others four.
- * An edge of the triangle has the tips across, which would be left with two. An edge to a tip may go, which leaves a
- * tetrahedron, and none of that one's. */
+/* An octahedron without a point is a double pyramid over a triangle: its tips have three neighbours, the
+ * others four. An edge of the triangle has the tips across, which would be left with two. An edge to a tip
+ * may go, which leaves a tetrahedron, and none of that one's. */
 static void a_point_keeps_three_neighbours(void **state)
 {
     (void)state;
@@ -113,9 +116,9 @@ static void a_point_keeps_three_neighbours(void **state)
     remesh_clear(&r);
 }
 
-/* Two triangles glued along a ring: a prism's three walls, each of two triangles, closed by two tips. Of an edge of a
- * ring of three, the ends have the ring's third point in common beside the two points across: without it the surface
- * would be pinched there. */
+/* Two triangles glued along a ring: a prism's three walls, each of two triangles, closed by two tips. Of an
+ * edge of a ring of three, the ends have the ring's third point in common beside the two points across:
+ * without it the surface would be pinched there. */
 static void a_neck_of_three_edges_does_not_collapse(void **state)
 {
     (void)state;
@@ -188,7 +191,8 @@ static void a_flip_joins_the_two_points_across(void **state)
     assert_true(flipped > 0);
 }
 
-/* A neck 0 1 2 as above whose lower end has two points, 7 and 8: across 0 7 lie 1 and 2, which the neck joins. */
+/* A neck 0 1 2 as above whose lower end has two points, 7 and 8: across 0 7 lie 1 and
+ * 2, which the neck joins. */
 static void a_flip_that_would_double_an_edge_is_refused(void **state)
 {
     (void)state;

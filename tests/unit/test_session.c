@@ -1,4 +1,5 @@
-/* What a hand does in the sculpting window, without the window: it is the chip script that one could have written. */
+/* What a hand does in the sculpting window, without the window: it is the chip script that
+ * one could have written. */
 #include "check.h"
 #include "folder.h"
 #include "sculpt/bricks.h"

@@ -36,7 +36,8 @@ static void springs_by_height_follow_the_profile(void **state)
     }
     close_balloon(&b);
 
-    /* "This gives the balloon the realistic behavior of expanding in the middle more than at the top or bottom" */
+    /* "This gives the balloon the realistic behavior of expanding in the middle more
+     * than at the top or bottom" */
     open_balloon(&b, 3,
                  SETTINGS("balloons[0].spring_by_height.profile=((0, 3), (0.5, 1), (1, 3))",
                           "balloons[0].pressure=2", "balloons[0].spring=5"));
@@ -186,7 +187,8 @@ static void a_run_that_diverges_names_point_time_and_the_likely_cause(void **sta
     struct balloon b;
     struct error err = {0};
     open_balloon(&b, 1, SETTINGS("time.step=1", "balloons[0].threshold=1e6", "balloons[0].spring=1e6"));
-    /* the threshold is far; each step multiplies what is wrong by about 1e7, so that 100 steps pass any double */
+    /* the threshold is far; each step multiplies what is wrong by about 1e7, so that
+     * 100 steps pass any double */
     for (uint32_t e = 0; e < b.sim.edge_count; e++)
         b.sim.settings[0].threshold_length = INFINITY;
     enum status status = STATUS_OK;
@@ -198,7 +200,8 @@ static void a_run_that_diverges_names_point_time_and_the_likely_cause(void **sta
     close_balloon(&b);
 }
 
-/* A skin that tears has room behind its points for those to come: whatever is there, a point is named that is one. */
+/* A skin that tears has room behind its points for those to come: whatever is there, a
+ * point is named that is one. */
 static void a_point_yet_to_come_is_not_what_diverged(void **state)
 {
     (void)state;

@@ -2,7 +2,8 @@
 #include "balloon.h"
 #include "sim/skins.h"
 
-/* In radii below the middle at rest, once all points have moved up by `up` radii and are `swollen` as large. */
+/* In radii below the middle at rest, once all points have moved up by `up` radii and
+ * are `swollen` as large. */
 static double depth_of_floor(const char *const *settings, double up, double swollen)
 {
     struct error err;

@@ -39,8 +39,8 @@ static void at_rest_without_pressure_nothing_moves_by_a_bit(void **state)
     close_balloon(&b);
 }
 
-/* Central differences of size h err by h^2 f'''/6; with h = 1e-4 and lengths near 20 that is below 1e-8 of the force,
- * and rounding adds about 1e-16 x energy / h = 1e-8. */
+/* Central differences of size h err by h^2 f'''/6; with h = 1e-4 and lengths near 20 that is below 1e-8 of
+ * the force, and rounding adds about 1e-16 x energy / h = 1e-8. */
 static void spring_forces_are_the_slope_of_their_energy(void **state)
 {
     (void)state;
@@ -61,7 +61,8 @@ static void spring_forces_are_the_slope_of_their_energy(void **state)
     close_balloon(&b);
 }
 
-/* Forces between two points are equal and opposite, and along the line between them. The sums are over 126 forces of about
+/* Forces between two points are equal and opposite, and along the line between them. The sums are
+ * over 126 forces of about
  * 100 at distances of about 45: rounding stays below 1e-9. */
 static void springs_and_dampers_keep_momentum_and_angular_momentum(void **state)
 {
@@ -84,7 +85,8 @@ static void springs_and_dampers_keep_momentum_and_angular_momentum(void **state)
     close_balloon(&b);
 }
 
-/* Witkin's damper: k_d (v . l)/|l| along l. Two points that part at speed 1 feel k_d each way; across l, nothing. */
+/* Witkin's damper: k_d (v . l)/|l| along l. Two points that part at speed 1 feel k_d each
+ * way; across l, nothing. */
 static void a_damper_resists_the_speed_along_its_edge(void **state)
 {
     (void)state;

@@ -54,9 +54,10 @@ static const struct layout {
     {RENDER_OVER_UNDER, true, {0, 0, 240, 80}, {0, 80, 240, 80}},
 };
 
-/* Parallax at distance d from eyes that are e apart, the screen at s: x on the screen shifts by e (d - s) / d between the
- * left and the right eye. A squeezed or plain half spans 4 units of height times its proportions. Edges are known to an eighth of
- * a pixel by sixteen samples each, and weights differ a little as the eyes see other light in the square. */
+/* Parallax at distance d from eyes that are e apart, the screen at s: x on the screen shifts by e (d - s) / d
+ * between the left and the right eye. A squeezed or plain half spans 4 units of height times its proportions.
+ * Edges are known to an eighth of a pixel by sixteen samples each, and weights differ a little as the eyes
+ * see other light in the square. */
 static void parallax_is_that_of_the_eyes_and_never_vertical(void **state)
 {
     (void)state;
@@ -114,7 +115,8 @@ static void interlaced_rows_are_the_left_eyes_and_the_rights_in_turn(void **stat
     eyes_clear(&eyes);
 }
 
-/* Pictures hold light to 1/510 of sRGB's scale, at most 0.0045 of light there; sums of several weigh up to 1.4. */
+/* Pictures hold light to 1/510 of sRGB's scale, at most 0.0045 of light there; sums of
+ * several weigh up to 1.4. */
 static void red_cyan_is_dubois_mixture_of_both(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* The mesh around cells filled at random: whole, closed, on the surface, and the same however it was found. */
+/* The mesh around cells filled at random: whole, closed, on the surface, and the
+ * same however it was found. */
 #include "common/random.h"
 #include "surface/block.h"
 #include "surfaces.h"

@@ -45,7 +45,8 @@ static uint32_t count_overlong(const struct sim *sim)
     return count;
 }
 
-/* What the sweep saw must never let an edge pass that is too long, and while a balloon is at rest it must not ask for a look. */
+/* What the sweep saw must never let an edge pass that is too long, and while a balloon is at rest it
+ * must not ask for a look. */
 static void no_edge_is_overlong_where_the_sweep_says_so(void **state)
 {
     (void)state;

@@ -103,9 +103,9 @@ static void a_scene_moves_models_by_their_middle(void **state)
 static void a_scene_turns_models(void **state)
 {
     (void)state;
-    /* rows (0 -1 0), (1 0 0), (0 0 1): a quarter turn about z, x to y and y to -x: columns 1 and 0 (1 | 0 << 2), the
-     * first row's sign minus (1 << 4): 17. About the corner 1 1 1 the first cell, which spans -1 .. 0 along each
-     * axis, then spans 0 .. 1 along x. */
+    /* rows (0 -1 0), (1 0 0), (0 0 1): a quarter turn about z, x to y and y to -x: columns 1 and 0 (1 | 0 <<
+     * 2), the first row's sign minus (1 << 4): 17. About the corner 1 1 1 the first cell, which spans -1 .. 0
+     * along each axis, then spans 0 .. 1 along x. */
     struct octree tree = turned("17");
     assert_int_equal(at_scene(&tree, 10, 19, 29), 1);
     assert_int_equal(at_scene(&tree, 10, 20, 29), 2);

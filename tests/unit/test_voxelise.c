@@ -43,9 +43,10 @@ static void assert_solid(const struct octree *tree)
     octree_clear(&copy);
 }
 
-/* Whatever lies further than half a cell's diagonal within the mesh's inscribed ball is full, and what lies as far out
- * of its circumscribed one is empty. The inscribed ball of an icosphere of level 4 is 0.2 % smaller: the triangle's
- * circumradius, at most 0.6 of the edge 1.05 / 2^4, takes 0.6^2 0.066^2 / 2 = 0.0008 off. */
+/* Whatever lies further than half a cell's diagonal within the mesh's inscribed ball is full, and
+ * what lies as far out of its circumscribed one is empty. The inscribed ball of an icosphere of level
+ * 4 is 0.2 % smaller: the triangle's circumradius, at most 0.6 of the edge 1.05 / 2^4, takes 0.6^2
+ * 0.066^2 / 2 = 0.0008 off. */
 static void assert_ball(const struct octree *tree, double slack)
 {
     for (int z = 0; z < SIDE; z++)
@@ -71,8 +72,8 @@ static void a_ball_is_a_ball_to_the_cell(void **state)
     assert_ball(&tree, 1e-3);
     assert_int_equal(report.inside, octree_measure(&tree).cells);
     assert_int_equal(report.undecided, 0);
-    /* Cells are wrong by no more than half of those that the surface crosses: (0.998 r)^3 .. r^3, and a lattice's
-     * counting error, which for a ball of radius 31 is under half a shell of one cell, 3 / (2 r) */
+    /* Cells are wrong by no more than half of those that the surface crosses: (0.998 r)^3 .. r^3, and a
+     * lattice's counting error, which for a ball of radius 31 is under half a shell of one cell, 3 / (2 r) */
     const double volume = 4 / 3.0 * M_PI * pow(radius, 3);
     assert_near((double)report.inside / volume, 1, 3 / (2 * radius));
     octree_clear(&tree);
@@ -91,7 +92,8 @@ static void a_ball_with_holes_is_solid_nonetheless(void **state)
         assert_ok(make(&mesh, &tree, &report, &err), &err);
         assert_true(report.mesh.boundary_edges > 0);
         assert_solid(&tree);
-        /* around a hole as wide as a few triangles (an edge is 2 cells long) the solid angle bulges or dents */
+        /* around a hole as wide as a few triangles (an edge is 2 cells long) the
+         * solid angle bulges or dents */
         assert_ball(&tree, i == 2 ? 5 : 3);
         octree_clear(&tree);
         mesh_clear(&mesh);
@@ -191,8 +193,8 @@ static void triangles_turned_at_random_are_counted_without_sense(void **state)
     mesh_clear(&mesh);
 }
 
-/* A cube whose corners lie on the lattice of cells: every face passes between centres, every diagonal of a face
- * through some. */
+/* A cube whose corners lie on the lattice of cells: every face passes between centres, every diagonal
+ * of a face through some. */
 static void a_cube_fills_all_but_the_free_cells(void **state)
 {
     (void)state;
@@ -232,7 +234,8 @@ static void what_encloses_nothing_or_is_too_open_is_refused(void **state)
     mesh_clear(&sieve);
 }
 
-/* Half of the 2^20 lines along an axis cross each triangle: 300 of them 300 x 2^19 times, and 2^27 is the most. */
+/* Half of the 2^20 lines along an axis cross each triangle: 300 of them 300 x 2^19
+ * times, and 2^27 is the most. */
 static void a_mesh_of_too_many_layers_is_refused(void **state)
 {
     (void)state;

@@ -52,7 +52,8 @@ static inline void assert_sound(const struct octree *tree)
     }
 }
 
-/* An operation about as large as `size`: a ball, a box, sandpaper or heat, mirrored or not, of material 0 to 2. */
+/* An operation about as large as `size`: a ball, a box, sandpaper or heat, mirrored or
+ * not, of material 0 to 2. */
 static inline struct chip random_operation(double size, uint64_t *seed)
 {
     static const enum chip_kind kinds[8] = {CHIP_CARVE, CHIP_CARVE, CHIP_CARVE,     CHIP_CARVE,

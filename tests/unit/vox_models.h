@@ -129,7 +129,8 @@ static inline void add_shape(struct model *model, uint32_t id, uint32_t of_model
     end_chunk(model, contents);
 }
 
-/* Makes a.vox. (A file that is cut to nothing and rewritten is flushed by some file systems, which takes time.) */
+/* Makes a.vox. (A file that is cut to nothing and rewritten is flushed by some file
+ * systems, which takes time.) */
 static inline void write_model(const unsigned char *data, size_t size)
 {
     unlink("a.vox");

@@ -1,5 +1,5 @@
-/* To be preloaded: a screen that has a buffer for each eye, as far as freeglut tells. What is drawn into which goes to the file `buffers`, a
- * line each time; only the right one is seen. */
+/* To be preloaded: a screen that has a buffer for each eye, as far as freeglut tells. What is drawn into
+ * which goes to the file `buffers`, a line each time; only the right one is seen. */
 #define _GNU_SOURCE 1
 #include <dlfcn.h>
 #include <GL/freeglut.h>
