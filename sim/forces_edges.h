@@ -94,9 +94,10 @@ struct edges_found {
 INLINE struct edges_found edge_forces_of_four(const struct edges *edges, uint32_t e, enum edge_work work,
                                               row f[4])
 {
+    const uint32_t(*point)[2] = edges->point + e;
     row l[4], v[4];
-    for (uint32_t i = 0; i < 4; i++) {
-        const uint32_t a = edges->point[e + i][0], b = edges->point[e + i][1];
+    for (int i = 0; i < 4; i++) {
+        const uint32_t a = point[i][0], b = point[i][1];
         l[i] = edges->position[a] - edges->position[b];
         v[i] = edges->velocity[a] - edges->velocity[b];
     }
@@ -151,12 +152,14 @@ INLINE void add_edges(struct sim *sim, const struct sim_part *part, const struct
     uint32_t e = chunk->edge_begin;
     lanes most = lanes_all(-INFINITY), hardest = lanes_all(0), stiffest = lanes_all(0);
     for (; inner_end - e >= 4; e += 4) {
+        const uint32_t(*point)[2] = edges.point + e;
+        const unsigned char *active = edges.active + e;
         row f[4];
         struct edges_found found = edge_forces_of_four(&edges, e, work, f);
-        for (uint32_t i = 0; i < 4; i++)
-            if (edges.active[e + i]) {
-                force[edges.point[e + i][0]] -= f[i];
-                force[edges.point[e + i][1]] += f[i];
+        for (int i = 0; i < 4; i++)
+            if (active[i]) {
+                force[point[i][0]] -= f[i];
+                force[point[i][1]] += f[i];
             } else {
                 found.over[i] = -INFINITY;
                 found.force[i] = found.rate[i] = 0;
