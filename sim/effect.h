@@ -48,10 +48,10 @@ struct effect {
     void (*after)(struct sim *sim, struct sim_balloon *balloon);
     /* What it remembers from step to step beyond sim->scalar, as blocks; returns how many. NULL: nothing. */
     size_t (*blocks)(struct sim *sim, struct sim_balloon *balloon, struct sim_block *blocks);
-    /* After a step, whether it can go on: STATUS_DIVERGED with the reason. NULL: always. For the ledger: what
-     * it holds now; and what it takes a second for good (dissipated) and brings from outside (work), at the
-     * current state, each added. NULL: nothing. */
+    /* After a step, whether it can go on: STATUS_DIVERGED with the reason. NULL: always. */
     enum status (*check)(struct sim *sim, struct sim_balloon *balloon, struct error *err);
+    /* For the ledger: what it holds now; and what it takes a second for good (dissipated) and brings from
+     * outside (work), at the current state, each added. NULL: nothing. */
     double (*energy)(struct sim *sim, struct sim_balloon *balloon);
     void (*power)(struct sim *sim, struct sim_balloon *balloon, double *dissipated, double *work);
     /* Likewise: what goes for good as an active edge lets go or is cut, or an active
