@@ -185,9 +185,21 @@ enum status guard_check(struct sim *sim, struct error *err)
     return energy <= most_energy(memory) ? STATUS_OK : sim_diverged(sim, energy, err);
 }
 
+/* In words: what asks for most of the bound, in a balloon. */
+static const char *cause_of(const struct sim *sim, const struct sim_balloon *b)
+{
+    const uint32_t cause = sim->guard->memory.cause;
+    if (cause >= GUARD_EFFECTS && cause - GUARD_EFFECTS < sim->hook_count[EFFECT_FORCES])
+        return sim->hooks[EFFECT_FORCES][cause - GUARD_EFFECTS].effect->name;
+    if (cause == GUARD_SPRINGS)
+        return b->membrane ? "membrane" : "springs";
+    if (cause == GUARD_DAMPERS)
+        return b->membrane ? "membrane's viscosity" : "dampers";
+    return "pressure";
+}
+
 void guard_describe(struct sim *sim, char *text, size_t size)
 {
-    static const char *const causes[] = {"springs", "dampers", "pressure"};
     const struct guard_memory *memory = &sim->guard->memory;
     const double step = sim->whole_step, stable = guard_stable_step(sim), parts = parts_needed(sim);
     const char *method = sim->acting->name;
@@ -214,5 +226,5 @@ void guard_describe(struct sim *sim, char *text, size_t size)
     snprintf(
         text + used, size - (size_t)used,
         "steps up to %.3g are surely stable for %s; most of that is for the %s at point %u of balloons[%zu]",
-        stable, method, causes[memory->cause], memory->point - sim->balloons[b].point_begin, b);
+        stable, method, cause_of(sim, &sim->balloons[b]), memory->point - sim->balloons[b].point_begin, b);
 }

@@ -11,10 +11,16 @@ struct limits {
     double growth;    /* end/2 in its place, where no step is stable */
 };
 
+/* Springs and dampers are stable at any step, and left out. */
+static bool is_outer_only(const struct sim *sim)
+{
+    return sim->acting->outer_limit > 0;
+}
+
 static struct limits limits_of(const struct sim *sim)
 {
-    const double w = sim->acting->oscillation_limit;
-    struct limits l = {.damping = 1 / sim->acting->decay_limit};
+    const double outer = sim->acting->outer_limit, w = outer > 0 ? outer : sim->acting->oscillation_limit;
+    struct limits l = {.damping = 1 / (outer > 0 ? outer : sim->acting->decay_limit)};
     if (w > 0)
         l.stiffness = 1 / (w * w);
     else
@@ -28,24 +34,48 @@ static double largest_step(const struct limits *l, double stiffness, double damp
     return 2 / (b + sqrt(b * b + 4 * a)); /* the positive root, in the form that does not cancel */
 }
 
-/* What acts on single points: pressure and effects. Returns what these ask of a step besides. */
-static struct guard_follow find_rows(struct sim *sim)
+static void find_pressure(const struct sim *sim, const struct guard_rows *rows)
+{
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++) {
+        const double pressure = fabs(sim_point_pressure(b)), trembling = b->mean_rest_length / 10;
+        for (uint32_t p = b->point_begin; p < b->point_end; p++) {
+            rows->stiffness[p] = trembling > 0 && !is_outer_only(sim) ? 2 * pressure / trembling : 0;
+            rows->damping[p] = 0;
+            rows->push[p] = pressure;
+        }
+    }
+}
+
+/* The largest of those who ask for a point's row. */
+struct asker {
+    uint32_t point, cause;
+    double ask;
+};
+
+/* How much of a step h its rows take, for largest_step(). */
+static double ask_of(const struct guard *guard, const struct limits *l, double h, uint32_t p)
+{
+    return (h * l->stiffness + l->growth) * guard->rows.stiffness[p] + l->damping * guard->rows.damping[p];
+}
+
+/* What acts on single points: pressure and effects. Returns what these ask of a step besides. Where
+ * `asker` is not NULL, sets its cause. */
+static struct guard_follow find_rows(struct sim *sim, const struct limits *l, double h, struct asker *asker)
 {
     struct guard_follow follow = {INFINITY, NULL};
     struct guard_rows rows = sim->guard->rows;
     rows.follow = &follow;
-    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++) {
-        const double pressure = fabs(sim_point_pressure(b)), trembling = b->mean_rest_length / 10;
-        for (uint32_t p = b->point_begin; p < b->point_end; p++) {
-            rows.stiffness[p] = trembling > 0 ? 2 * pressure / trembling : 0;
-            rows.damping[p] = 0;
-            rows.push[p] = pressure;
-        }
-    }
+    find_pressure(sim, &rows);
+    if (asker)
+        *asker = (struct asker){asker->point, GUARD_PRESSURE, ask_of(sim->guard, l, h, asker->point)};
     for (size_t i = 0; i < sim->hook_count[EFFECT_FORCES]; i++) {
         const struct effect_hook *hook = &sim->hooks[EFFECT_FORCES][i];
+        const double before = asker ? ask_of(sim->guard, l, h, asker->point) : 0;
         if (hook->effect->bound)
             hook->effect->bound(sim, hook->balloon, &rows);
+        const double more = asker ? ask_of(sim->guard, l, h, asker->point) - before : 0;
+        if (asker && more > asker->ask)
+            *asker = (struct asker){asker->point, GUARD_EFFECTS + (uint32_t)i, more};
     }
     double push = 0;
     for (uint32_t p = 0; p < sim->point_count; p++)
@@ -60,6 +90,8 @@ static void find_edges(const struct sim *sim)
     struct guard *guard = sim->guard;
     memset(guard->springs, 0, sim->point_count * sizeof *guard->springs);
     memset(guard->dampers, 0, sim->point_count * sizeof *guard->dampers);
+    if (is_outer_only(sim))
+        return;
     for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
         for (uint32_t e = b->edge_begin; e < b->edge_end; e++) {
             if (!sim->edge_active[e])
@@ -112,15 +144,15 @@ static void sharpen(const struct sim *sim, const struct limits *l, double h)
         guard->x[p] = fmax(guard->x[p] / largest, 1e-100);
 }
 
+/* GUARD_PRESSURE: that or an effect. */
 static enum guard_cause cause_at(const struct sim *sim, const struct limits *l, double h, uint32_t p)
 {
     const struct guard *guard = sim->guard;
     const double stiffness = h * l->stiffness + l->growth;
     const double springs = stiffness * guard->springs[p] / guard->x[p],
-                 dampers = l->damping * guard->dampers[p] / guard->x[p],
-                 points = stiffness * guard->rows.stiffness[p] + l->damping * guard->rows.damping[p];
+                 dampers = l->damping * guard->dampers[p] / guard->x[p], points = ask_of(guard, l, h, p);
     if (points > springs && points > dampers)
-        return GUARD_POINTS;
+        return GUARD_PRESSURE;
     return dampers > springs ? GUARD_DAMPERS : GUARD_SPRINGS;
 }
 
@@ -136,7 +168,7 @@ void guard_cut(struct sim *sim, const struct sim_balloon *b, uint32_t point, uin
     guard->x[point] = guard->x[like];
     guard->rows.stiffness[point] = guard->rows.stiffness[like];
     guard->rows.damping[point] = guard->rows.damping[like];
-    for (uint32_t i = 0; i < edge_count; i++) {
+    for (uint32_t i = 0; i < edge_count && !is_outer_only(sim); i++) {
         const uint32_t e = edges[i];
         const double x = guard->x[sim->edge_point[e][0]] + guard->x[sim->edge_point[e][1]];
         const double weight = m ? m->edge_weight[e - b->edge_begin] : 1;
@@ -154,7 +186,7 @@ void guard_find_bound(struct sim *sim)
     enum { ITERATIONS_MAX = 40 };
     struct guard_memory *memory = &sim->guard->memory;
     const struct limits l = limits_of(sim);
-    const struct guard_follow follow = find_rows(sim);
+    const struct guard_follow follow = find_rows(sim, &l, 0, NULL);
     memory->stable = 0;
     for (int i = 0; i < ITERATIONS_MAX; i++) {
         uint32_t point = 0;
@@ -164,9 +196,14 @@ void guard_find_bound(struct sim *sim)
             memory->point = point;
             memory->cause = cause_at(sim, &l, h, point);
         }
-        if (isinf(h) || h == 0 || (i % 4 == 3 && memory->stable < 1.002 * before))
+        if (isinf(h) || h == 0 || is_outer_only(sim) || (i % 4 == 3 && memory->stable < 1.002 * before))
             break;
         sharpen(sim, &l, h);
+    }
+    if (memory->cause == GUARD_PRESSURE) {
+        struct asker asker = {.point = memory->point};
+        find_rows(sim, &l, memory->stable, &asker);
+        memory->cause = asker.cause;
     }
     if (follow.step < memory->stable) {
         memory->stable = follow.step;

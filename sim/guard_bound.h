@@ -7,9 +7,10 @@
 enum guard_cause {
     GUARD_SPRINGS,
     GUARD_DAMPERS,
-    GUARD_POINTS,
-    GUARD_TUBE
-}; /* points: pressure and effects */
+    GUARD_PRESSURE,
+    GUARD_TUBE,
+    GUARD_EFFECTS /* the first of sim->hooks[EFFECT_FORCES]; those after it follow */
+};
 
 /* All arrays are [point_count] and owned. */
 struct guard {
@@ -25,7 +26,7 @@ struct guard {
         double least;      /* and the least that counts: rounding moves points too */
         uint64_t broken;   /* edges, when the bound was found */
         uint32_t point;    /* where it is tightest; of a tube, the first of its balloon */
-        uint32_t cause;    /* enum guard_cause: what asks for most of it there */
+        uint32_t cause;    /* enum guard_cause, or after: what asks for most of it there */
         uint64_t is_known; /* 1: nothing has changed since */
     } memory;
 };

@@ -22,6 +22,9 @@ struct integrator {
     /* The largest stable step: dt times the angular frequency of an undamped oscillator, and dt times the
      * rate of a pure decay. INFINITY where any step is stable. */
     double oscillation_limit, decay_limit;
+    /* Where any step is stable with springs and dampers only: both of these, of what
+     * effects add. 0: the same. */
+    double outer_limit;
     enum status (*open)(struct sim *sim,
                         struct error *err); /* makes sim->method, all zero before; NULL: nothing to make */
     void (*close)(struct sim *sim);         /* NULL: nothing to free */

@@ -5,7 +5,7 @@
  * do together (a balloon that swells) is not what one by one they do. There a spring acts as if softer, by 1
  * + (k h^2 + d h) (1/m_a + 1/m_b) in a substep of h: a few springs of any stiffness are as good as rigid, but
  * when it is most of them, there are more substeps. Pressure and what effects add are forces from outside, as
- * they are where a substep begins.
+ * they are where a substep begins: these the guard looks after.
  *
  * Edges that meet cannot be solved at the same time. They are coloured so that no two of a colour
  * meet: those of a colour can be solved in any order, by any number of threads, to the same bits; the
@@ -267,6 +267,7 @@ const struct integrator integrator_xpbd = {
     .vectors = 1,
     .oscillation_limit = INFINITY,
     .decay_limit = INFINITY,
+    .outer_limit = 2 * SUBSTEPS, /* of symplectic Euler, in each substep */
     .open = open_xpbd,
     .close = close_xpbd,
     .advance = xpbd,

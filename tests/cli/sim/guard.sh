@@ -9,6 +9,11 @@ awk -F'\t' 'NR == 3 && $13 < 0.1 { small = 1 } END { exit !small }' log.tsv || f
 refused 3 'refused at time 0: time.step 1 is too large: steps up to 0.0' balloon-sim m.ply --hash $large --set time.guard=refuse
 refused 3 'diverged at time .* on an edge of length .*; kinetic energy .*; time.step 1 is too large: steps up to 0.0' \
     balloon-sim m.ply --hash $large --set time.end=1000 --set time.guard=off
+# What asks for short steps is named, and xpbd, for which springs ask for nothing, splits what wind asks for.
+expect 0 balloon-sim m.ply --set time.guard=substep --set time.integrator=xpbd --set drag.air_density=1 --set drag.wind=[1000,0,0] --check
+stdout_has 'time.step 0.025 is split in [0-9]+: .* surely stable for xpbd; most of that is for the drag at point [0-9]+ of'
+expect 0 balloon-sim m.ply --set time.integrator=xpbd --set balloons[0].spring=1e6 --check
+stdout_has 'every step is stable for xpbd$'
 refused 1 'guard is "maybe"; it must be one of "substep", "refuse", "off"' balloon-sim m.ply --set time.guard=maybe
 
 expect 0 balloon-sim m.ply $large --set time.guard=substep --check
