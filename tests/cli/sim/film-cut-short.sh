@@ -35,7 +35,7 @@ for kind in mp4 webm; do
     tries=0
     until [ "$(cat k.*-0.$kind 2>/dev/null | wc -c)" -gt 3000 ]; do
         tries=$((tries + 1))
-        [ $tries -lt 400 ] || { kill -9 $job; fail "no movie grows"; }
+        [ $tries -lt 2400 ] || { kill -9 $job; fail "no movie grows"; }
         sleep 0.05
     done
     encoder=$(cat /proc/$job/task/*/children)
