@@ -38,7 +38,7 @@ for kind in mp4 webm; do
         [ $tries -lt 2400 ] || { kill -9 $job; fail "no movie grows"; }
         sleep 0.05
     done
-    encoder=$(cat /proc/$job/task/*/children)
+    encoder=$(cat /proc/$job/task/*/children) || fail "it has ended"
     # shellcheck disable=SC2086 # one number
     kill -9 $job $encoder
     wait $job || true
