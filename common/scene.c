@@ -107,8 +107,9 @@ enum status scene_check(struct scene *scene, struct error *err)
     for (size_t i = 0; i < scene->schedule_count; i++)
         if (scene->schedule[i].balloon >= (int)scene->balloon_count)
             return error_set(err, STATUS_INPUT,
-                             "%s: schedule[%zu].balloon is %d, but the balloons are 0 to %zu", scene->path, i,
-                             scene->schedule[i].balloon, scene->balloon_count - 1);
+                             "%s:%u: schedule[%zu].balloon is %d, but the balloons are 0 to %zu", scene->path,
+                             scene->schedule[i].line, i, scene->schedule[i].balloon,
+                             scene->balloon_count - 1);
     sort_schedule(scene);
     return scene_check_surroundings(scene, err);
 }

@@ -154,6 +154,7 @@ struct scene_membrane {
 };
 
 struct scene_balloon {
+    unsigned line;      /* in the file; 0: not by it */
     char *mesh;         /* path; relative ones already joined to the scene's folder */
     double radius;      /* mean distance of the points from their centre; 0: as the mesh has it */
     double position[3]; /* of that centre */
@@ -208,8 +209,9 @@ enum { SCENE_CHANGES_MAX = 8 };
 
 /* Keys that change between two steps, as the paper's user changes them by hand (3.5). */
 struct scene_schedule {
-    double at;   /* s */
-    int balloon; /* which one; -1: all */
+    unsigned line; /* as above */
+    double at;     /* s */
+    int balloon;   /* which one; -1: all */
     size_t change_count;
     struct {
         const struct scene_field *field;

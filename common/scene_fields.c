@@ -102,7 +102,7 @@ const struct scene_block scene_blocks[] = {
      "How time is cut into steps"},
     {"view", "", false, FIELDS(view_fields), offsetof(struct scene, view), SIZE_MAX, SIZE_MAX,
      "How the pictures are taken"},
-    {"balloons", "", true, FIELDS(balloon_fields), 0, SIZE_MAX, SIZE_MAX,
+    {"balloons", "", true, FIELDS(balloon_fields), 0, SIZE_MAX, offsetof(struct scene_balloon, line),
      "A list: one block { ... } a balloon"},
     {"spring_by_height", "balloons", false, FIELDS(spring_by_height_fields), EFFECT(spring_by_height),
      "Spring constants that vary with height, as the skin's thickness does"},
@@ -134,7 +134,7 @@ const struct scene_block scene_blocks[] = {
      "Balloons do not pass through each other, nor through themselves"},
     {"fracture", "balloons", false, FIELDS(fracture_fields), EFFECT(fracture),
      "How the skin gives way; without the block as the paper has it"},
-    {"schedule", "", true, FIELDS(schedule_fields), 0, SIZE_MAX, SIZE_MAX,
+    {"schedule", "", true, FIELDS(schedule_fields), 0, SIZE_MAX, offsetof(struct scene_schedule, line),
      "A list: one block { at = ...; and the keys that change then }"},
 };
 const size_t scene_block_count = sizeof scene_blocks / sizeof scene_blocks[0];

@@ -2,6 +2,7 @@
 #include "common/array.h"
 #include "common/file.h"
 #include "common/scene.h"
+#include "common/scene_syntax.h"
 #include "common/scene_value.h"
 
 #include <assert.h>
@@ -225,17 +226,6 @@ static enum status read_scene(config_t *config, const struct scene_source *sourc
     return STATUS_OK;
 }
 
-/* Where the file is not libconfig's grammar, with what would be right. */
-static enum status refuse_grammar(const config_t *config, const char *path, struct error *err)
-{
-    const char *file = config_error_file(config) ? config_error_file(config) : path;
-    const bool mixed = strstr(config_error_text(config), "mismatched element");
-    return error_set(err, STATUS_INPUT, "%s:%d: %s; %s", file, config_error_line(config),
-                     config_error_text(config),
-                     mixed ? "write [0.0, 1.0, 2.5] or (0, 1, 2.5)"
-                           : "a scene is made of lines like key = value; with text in quotes");
-}
-
 static enum status parse_file(const char *path, const struct bytes *text, struct scene *scene,
                               struct error *err)
 {
@@ -256,9 +246,9 @@ static enum status parse_file(const char *path, const struct bytes *text, struct
             err, STATUS_INPUT,
             "%s: is not a scene file: it is not text; a scene (.cfg) or a mesh (.ply, .stl, .obj) is wanted",
             path);
-    else if (!config_read_string(&config, (const char *)text->data))
-        status = refuse_grammar(&config, path, err);
     else
+        status = scene_parse_text(&config, path, (const char *)text->data, err);
+    if (!status)
         status = read_scene(&config, &source, scene, err);
     config_destroy(&config);
     free(folder);
@@ -372,8 +362,11 @@ static enum status set_by_path(struct scene *scene, const char *path, const conf
 enum status scene_set(struct scene *scene, const char *assignment, struct error *err)
 {
     const char *equals = strchr(assignment, '=');
+    struct scene_slip slip;
     if (!equals)
         return error_set(err, STATUS_INPUT, "--set: `%s` has no value; write KEY=VALUE", assignment);
+    if (scene_find_cut_number(equals + 1, &slip))
+        return error_set(err, STATUS_INPUT, "--set: %s", slip.text);
     char *path = strndup(assignment, (size_t)(equals - assignment));
     if (!path)
         return error_no_memory(err, "--set");

@@ -1,6 +1,7 @@
 #include "common/scene_value.h"
 #include "common/array.h"
 #include "common/scene.h"
+#include "common/scene_syntax.h"
 #include "common/spelling.h"
 
 #include <math.h>
@@ -70,8 +71,9 @@ enum status scene_read_number(const struct scene_field *field, const config_sett
 {
     double number;
     if (!to_number(value, &number))
-        return scene_refuse(source, value, err, "%s must be a number%s%s", field->key,
-                            *field->unit ? " in " : "", field->unit);
+        return scene_refuse(source, value, err, "%s must be a number%s%s%s", field->key,
+                            *field->unit ? " in " : "", field->unit,
+                            config_setting_type(value) == CONFIG_TYPE_STRING ? ", without quotes" : "");
     if (!(number >= field->least && number <= field->most))
         return scene_refuse(source, value, err, "%s is %g; it must be from %g to %g%s%s", field->key, number,
                             field->least, field->most, *field->unit ? " " : "", field->unit);
@@ -220,4 +222,29 @@ config_setting_t *scene_parse_value(config_t *config, const char *text)
     free(line);
     config_setting_t *root = config_root_setting(config);
     return good && config_setting_length(root) == 1 ? config_setting_get_elem(root, 0) : NULL;
+}
+
+/* Where the file is not libconfig's grammar, with what would be right. */
+static enum status refuse_grammar(const config_t *config, const char *path, const char *text,
+                                  struct error *err)
+{
+    const char *file = config_error_file(config) ? config_error_file(config) : path;
+    struct scene_slip slip = {.line = (unsigned)config_error_line(config)};
+    if (strstr(config_error_text(config), "mismatched element"))
+        snprintf(slip.text, sizeof slip.text, "write [0.0, 1.0, 2.5] or (0, 1, 2.5)");
+    else if (strstr(config_error_text(config), "duplicate"))
+        snprintf(slip.text, sizeof slip.text, "a key stands twice in its block");
+    else if (config_error_file(config) || !scene_find_slip(text, &slip))
+        snprintf(slip.text, sizeof slip.text,
+                 "a scene is made of lines like key = value; with text in quotes");
+    return error_set(err, STATUS_INPUT, "%s:%u: %s; %s", file, slip.line, config_error_text(config),
+                     slip.text);
+}
+
+enum status scene_parse_text(config_t *config, const char *path, const char *text, struct error *err)
+{
+    struct scene_slip slip;
+    if (scene_find_cut_number(text, &slip))
+        return error_set(err, STATUS_INPUT, "%s:%u: %s", path, slip.line, slip.text);
+    return config_read_string(config, text) ? STATUS_OK : refuse_grammar(config, path, text, err);
 }

@@ -32,6 +32,10 @@ enum status scene_read_number(const struct scene_field *field, const config_sett
 enum status scene_read_value(const struct scene_field *field, const config_setting_t *value,
                              const struct scene_source *source, void *block, struct error *err);
 
+/* Lets libconfig read a scene, but for what it would misread. STATUS_INPUT: "PATH:LINE: ...", with what would
+ * be right. */
+enum status scene_parse_text(config_t *config, const char *path, const char *text, struct error *err);
+
 /* The value written in `text`, as libconfig reads it; bare words are taken as if in quotes. It belongs to
  * config, which must be initialised. NULL when it is no value. */
 config_setting_t *scene_parse_value(config_t *config, const char *text);

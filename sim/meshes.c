@@ -65,7 +65,13 @@ enum status sim_load_meshes(const struct scene *scene, struct mesh *meshes, stru
                             struct error *err)
 {
     for (size_t i = 0; i < scene->balloon_count; i++) {
+        const unsigned line = scene->balloons[i].line;
         enum status status = load_mesh(scene->balloons[i].mesh, &meshes[i], &reports[i], err);
+        if (status && line > 0) {
+            char place[512];
+            snprintf(place, sizeof place, "%.400s:%u: balloons[%zu].mesh", scene->path, line, i);
+            return error_prefix(err, place);
+        }
         if (status)
             return status;
     }

@@ -117,7 +117,7 @@ static void what_is_wrong_is_named_with_its_line(void **state)
         {"balloons = ( { mesh = \"a.ply\"; } );\nschedule = ( { at = 1; pump = 1; } );",
          "schedule[0] turns its pump, but there is no gas"},
         {"balloons = ( { mesh = \"a.ply\"; } );\nschedule = ( { at = 1; balloon = 1; } );",
-         "the balloons are 0 to 0"},
+         ":2: schedule[0].balloon is 1, but the balloons are 0 to 0"},
         {"time = { step = nan; };", ":1: syntax error"},
         {"time = { step = 1 ", ":1: syntax error"},
         {"time = { step = 1; step = 2; };", ":1: duplicate setting name"},
@@ -129,6 +129,67 @@ static void what_is_wrong_is_named_with_its_line(void **state)
         assert_refused(load(cases[i].text, &scene, &err), STATUS_INPUT, cases[i].message, &err);
         assert_null(scene.balloons);
     }
+}
+
+/* In place of "syntax error" alone. */
+static void slips_of_the_pen_are_named_with_what_would_be_right(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *message;
+    } cases[] = {
+        {"time = { step = 3 cm; };", ":1: syntax error; `3 cm`: numbers stand without units"},
+        {"time = { end = 3cm; };", "`3cm` is no number"},
+        {"time = { step = 0,5; };", "`,5`: decimals stand behind a point"},
+        {"view = { # mono\n stereo = mono; };", ":2: syntax error; `mono` is no value"},
+        {"time { step = 1; };", "`=` is missing behind `time`"},
+        {"time = { step 1; };", "`=` is missing behind `step`"},
+        {"time = { step = ; };", "nothing stands behind `step =`"},
+        {"time = { step = 1;; };", "`;` stands where a key is wanted"},
+        {"time = { \"step\" = 1; };", "\"step\": the names of keys stand without quotes"},
+        {"{ time = 1; }", "`{` has no name; write name = { ... }"},
+        {"balloons = ( { mesh = \"a.ply\"; }\n\n { mesh = \"b.ply\"; } );",
+         ":3: syntax error; a `,` is missing before `{`"},
+        {"balloons = ( { mesh = \"a.ply\"; }, );", "nothing stands behind the last `,`"},
+        {"balloons = ( mesh = \"a.ply\"; );", "a list is made of blocks: ( { mesh = ...; }, { ... } )"},
+        {"view = { size = [640 480]; };", "a `,` is missing before `480`"},
+        {"balloons = (\n{ mesh = \"a.ply\"; gas = { ambient = 6; };\n);",
+         ":3: syntax error; `)` comes before the `}` that closes the `{` of line 2"},
+        {"balloons = ( { mesh = \"a.ply\"; };",
+         "`;` stands where a `,`, or the `)` that closes the `(` of line 1, is wanted"},
+        {"balloons = (\n { mesh = \"a.ply\"; }\n", ":1: syntax error; `(` is never closed; a `)` is missing"},
+        {"time = { step = 1; }; };", "`}` closes nothing"},
+        {"balloons = ( { mesh = \"a.ply; radius = 3;\n colour = \"red\"; } );",
+         ":1: syntax error; a quote is not closed in its line"},
+        {"time = { step = 1; step = 2; };", "a key stands twice in its block"},
+        {"time = { step = \"1\"; };", "step must be a number in s, without quotes"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct error err = {0};
+        struct scene scene = {0};
+        assert_refused(load(cases[i].text, &scene, &err), STATUS_INPUT, cases[i].message, &err);
+    }
+}
+
+/* libconfig reads 4294967297 as 1. */
+static void whole_numbers_that_would_be_cut_to_32_bits_are_refused(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct scene scene = {0};
+    assert_refused(load("/* 4294967297 */ balloons =\n( { mesh = \"4294967297\"; radius = 4294967297; } );",
+                        &scene, &err),
+                   STATUS_INPUT, ":2: 4294967297: a whole number without a point goes to 2147483647", &err);
+    assert_refused(load("time = { end = -99999999999999999999; };", &scene, &err), STATUS_INPUT,
+                   "without a point", &err);
+    assert_ok(load("balloons = ( { mesh = \"4294967297\"; radius = 0x10; } ); # 4294967297\n"
+                   "time = { end = 300000000.0; step = 1L; };",
+                   &scene, &err),
+              &err);
+    assert_near(scene.time.end, 3e8, 0);
+    assert_refused(scene_set(&scene, "balloons[0].radius=4294967297", &err), STATUS_INPUT,
+                   "--set: 4294967297: a whole number", &err);
+    scene_clear(&scene);
 }
 
 static void set_changes_any_key_by_its_path(void **state)
@@ -244,6 +305,8 @@ int main(void)
         cmocka_unit_test(a_scene_with_one_mesh_has_the_papers_settings),
         cmocka_unit_test(every_kind_of_value_is_read),
         cmocka_unit_test(what_is_wrong_is_named_with_its_line),
+        cmocka_unit_test(slips_of_the_pen_are_named_with_what_would_be_right),
+        cmocka_unit_test(whole_numbers_that_would_be_cut_to_32_bits_are_refused),
         cmocka_unit_test(set_changes_any_key_by_its_path),
         cmocka_unit_test(every_default_is_within_its_own_range),
         cmocka_unit_test(scenes_are_told_apart_by_the_keys_that_a_state_depends_on),

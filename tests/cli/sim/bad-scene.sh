@@ -16,7 +16,8 @@ bad 's.cfg:1: step is 1e\+300;' 'time = { step = 1e300; };'
 bad 's.cfg:1: syntax error' 'time = { step = nan; };'
 bad 's.cfg:1: syntax error' 'time = { step = inf; };'
 bad 's.cfg:2: syntax error' 'time = { step = '
-bad 'no-such.ply: cannot open' 'balloons = ( { mesh = "no-such.ply"; } );'
+bad 's.cfg:2: balloons\[1\].mesh: no-such.ply: cannot open' 'balloons = ( { mesh = "m.ply"; },
+{ mesh = "no-such.ply"; } );'
 bad 's.cfg: has no balloon' ''
 printf 'time = { };\0 and more' >s.cfg
 refused 1 's.cfg: is not a scene file' balloon-sim s.cfg

@@ -1,0 +1,25 @@
+/*
+ * What is wrong with the text of a scene, in words, where libconfig says no more than "syntax error", or
+ * nothing: it cuts whole numbers to 32 bits.
+ *
+ *     struct scene_slip slip;
+ *     if (scene_find_cut_number(text, &slip)) ...             before libconfig reads it
+ *     if (!config_read_string(&config, text) && scene_find_slip(text, &slip)) ...
+ */
+#ifndef COMMON_SCENE_SYNTAX_H
+#define COMMON_SCENE_SYNTAX_H
+
+#include <stdbool.h>
+
+struct scene_slip {
+    unsigned line;  /* from 1 */
+    char text[200]; /* "a comma is missing before `{`" */
+};
+
+/* The first whole number of `text` beyond 32 bits. False: there is none. */
+bool scene_find_cut_number(const char *text, struct scene_slip *slip);
+
+/* The first place where `text`, which libconfig refused, leaves its grammar. False: none is found. */
+bool scene_find_slip(const char *text, struct scene_slip *slip);
+
+#endif
