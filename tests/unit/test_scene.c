@@ -159,7 +159,8 @@ static void slips_of_the_pen_are_named_with_what_would_be_right(void **state)
          "`;` stands where a `,`, or the `)` that closes the `(` of line 1, is wanted"},
         {"balloons = (\n { mesh = \"a.ply\"; }\n", ":1: syntax error; `(` is never closed; a `)` is missing"},
         {"time = { step = 1; }; };", "`}` closes nothing"},
-        {"balloons = ( { mesh = \"a.ply; radius = 3;\n colour = \"red\"; } );",
+        /* two of them: libconfig leaks a text that the file ends in */
+        {"balloons = ( { mesh = \"a.ply; } );\nview = { stereo = \"mono; };",
          ":1: syntax error; a quote is not closed in its line"},
         {"time = { step = 1; step = 2; };", "a key stands twice in its block"},
         {"time = { step = \"1\"; };", "step must be a number in s, without quotes"},
