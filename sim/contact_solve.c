@@ -3,6 +3,7 @@
 #include "sim/contact_approach.h"
 #include "sim/obstacles.h"
 #include "sim/pins.h"
+#include "sim/sweep.h"
 
 #include <string.h>
 
@@ -144,6 +145,7 @@ static enum status keep_apart(struct sim *sim, struct error *err)
     memset(c->held, 0, sim->point_count);
     pins_mark(sim, c->held);
     bool hits = contact_look(sim);
+    sim->pushed = hits && sweep_sees_pushes(sim);
     for (int round = 0; hits && round < ROUNDS_MAX && !status; round++) {
         sim->changed = true;
         push_all(sim);

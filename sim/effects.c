@@ -187,7 +187,7 @@ enum status effects_settle(struct sim *sim, struct error *err)
     enum status status = STATUS_OK;
     for (size_t i = 0; i < sim->hook_count[EFFECT_MOVED] && !status; i++)
         status = sim->hooks[EFFECT_MOVED][i].effect->settle(sim, err);
-    sim->swept &= !sim->changed;
+    sim->swept &= !sim->changed || sim->pushed;
     return status;
 }
 

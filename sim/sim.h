@@ -175,7 +175,8 @@ struct sim {
     size_t part_count;
     uint32_t *overlong;    /* [part_count] edges past the threshold, by the last break_edges() */
     struct sim_seen *seen; /* [part_count] by the last sweep (sweep.h), */
-    bool swept;            /*    with which this step ended, and nothing has moved a point since */
+    bool swept;            /*    with which this step ended, and nothing has moved a point since, */
+    bool pushed;           /*    or contact has, and shown each such point to it */
     const struct sim_kernels *kernels;
     struct {
         void *position, *velocity, *force, *normal; /* [point_count] what the kernels work on */

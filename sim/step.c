@@ -182,7 +182,7 @@ static enum status advance(struct sim *sim, struct error *err)
     sim->due = is_adaptive(sim) ? next_due(sim) : INFINITY;
     const double left = sim->due - sim->time;
     sim->taken = left <= sim->step * (1 + 1e-9) ? left : sim->step; /* no sliver of a step is left behind */
-    sim->swept = false;
+    sim->swept = sim->pushed = false;
     enum status status = sim->integrator->advance(sim, sim->taken, err);
     if (status)
         return status;

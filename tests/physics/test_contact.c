@@ -1,7 +1,9 @@
 /* Skins that keep apart: against a look at all pairs, at the end of every step of scenes that
  * fold, squeeze and collide. */
+#include "common/vec3.h"
 #include "crossings.h"
 #include "sim/contact.h"
+#include "sim/sweep.h"
 #include "two_skins.h"
 
 static void check_steps(struct sim *sim, int steps)
@@ -241,6 +243,55 @@ static void test_balloons_that_cross_at_first_are_refused(void **state)
     close_scene(&s);
 }
 
+/* The sweep is told of every push (sweep.h), so that most steps need no look at all edges. */
+static void test_no_push_takes_a_point_further_than_the_sweep_knows(void **state)
+{
+    (void)state;
+    struct scene_of_two s;
+    struct error err = {0};
+    int pushed = 0;
+    open_scene(&s, 3, 1, FOLDING);
+    swirl(&s.sim, 3);
+    for (int i = 0; i < 200; i++) {
+        double farthest = 0;
+        assert_ok(sim_step(&s.sim, &err), &err);
+        for (uint32_t p = 0; p < s.sim.point_count; p++)
+            farthest = fmax(farthest, vec3_distance(s.sim.position[p], s.sim.before[p]));
+        assert_true(farthest <= (1 + 1e-12) * sweep_saw_farthest(&s.sim));
+        pushed += s.sim.pushed && sweep_saw_none_overlong(&s.sim);
+    }
+    assert_true(pushed > 10);
+    close_scene(&s);
+}
+
+/* What pushes make too long lets go in the same step. */
+static void test_no_step_of_skins_that_break_on_each_other_ends_with_an_overlong_edge(void **state)
+{
+    (void)state;
+    struct scene_of_two s;
+    struct error err = {0};
+    int sure = 0, broke = 0;
+    open_scene(&s, 3, 1,
+               SETTINGS("contact.thickness=0.5", "balloons[1].mesh=sphere", "balloons[0].position=[-60,0,0]",
+                        "balloons[1].position=[60,3,2]", "balloons[0].threshold=1.25",
+                        "balloons[0].pressure=0", "balloons[1].threshold=1.25", "balloons[1].pressure=0",
+                        "time.step=0.0125"));
+    throw(&s.sim, 30);
+    for (int i = 0; i < 200; i++) {
+        const uint32_t broken = s.sim.broken;
+        assert_ok(sim_step(&s.sim, &err), &err);
+        for (uint32_t e = 0; e < s.sim.edge_count; e++) {
+            const struct sim_balloon *balloon = &s.sim.balloons[e >= s.sim.balloons[1].edge_begin];
+            assert_true(!s.sim.edge_active[e] ||
+                        sim_edge_length(&s.sim, e) <= sim_threshold(&s.sim, balloon, e));
+        }
+        sure += s.sim.pushed && sweep_saw_none_overlong(&s.sim);
+        broke += s.sim.pushed && s.sim.broken > broken;
+    }
+    assert_true(sure > 10 && broke > 10);
+    close_scene(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -248,6 +299,8 @@ int main(void)
         cmocka_unit_test(test_without_contact_it_crosses_itself),
         cmocka_unit_test(test_a_squeezed_balloon_never_crosses_itself_nor_enters_the_boxes),
         cmocka_unit_test(test_two_balloons_thrown_together_keep_apart_and_keep_their_momentum),
+        cmocka_unit_test(test_no_push_takes_a_point_further_than_the_sweep_knows),
+        cmocka_unit_test(test_no_step_of_skins_that_break_on_each_other_ends_with_an_overlong_edge),
         cmocka_unit_test(test_contact_does_not_move_what_pins_hold),
         cmocka_unit_test(test_a_skin_that_is_cut_keeps_apart_at_its_cuts_too),
         cmocka_unit_test(test_the_pieces_of_a_balloon_that_bursts_keep_apart),
