@@ -26,11 +26,15 @@
 
 #include "sim/contact_tree.h"
 
-/* Pairs on trial, of each kind, until there are some to try at once. */
-enum { CONTACT_TAKEN = 128 };
+/* A worker's pairs on trial, of each kind, until there are some to try at once; and cells that it has made,
+ * since leaves come again and again: each in a place of its number's, the last one for a leaf whose place is
+ * in use. */
+enum { CONTACT_TAKEN = 128, CONTACT_CELLS = 128 };
 struct contact_taken {
     uint32_t count[2];
     uint32_t point[2][CONTACT_TAKEN][4];
+    uint32_t leaf[CONTACT_CELLS + 1]; /* of each cell; UINT32_MAX: none yet */
+    struct contact_cell cells[CONTACT_CELLS + 1];
 };
 
 /* How a balloon has moved against the lines as a whole: x = middle + growth x (the

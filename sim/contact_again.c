@@ -61,13 +61,12 @@ static void take_near(void *context, uint32_t leaf)
     const struct vicinity *r = context;
     const struct sim *sim = r->finder->sim;
     const struct contact_tree *tree = &r->finder->contact->tree;
-    struct contact_cell cell;
+    const struct contact_cell *cell = contact_finder_cell(r->finder, r->taken, leaf, NULL);
     uint8_t couples[2 * VICINITY_MOST * CONTACT_BESIDE][2];
-    contact_tree_cell(tree, sim, leaf, &cell);
-    take_near_points(r, &cell);
+    take_near_points(r, cell);
     const struct contact_group around = {r->edge_box, r->edge_count, &r->all};
     const uint32_t *edge = tree->leaf_edge + tree->leaves[tree->nodes[leaf].number].edge_begin,
-                   count = tree->kernels->meet(&around, &cell.edges, couples);
+                   count = tree->kernels->meet(&around, &cell->edges, couples);
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t e = edge[couples[i][1]], g = r->edge[couples[i][0]];
         if (is_ours(r, sim->edge_point[e], 2) && is_ours(r, sim->edge_point[g], 2))

@@ -17,6 +17,9 @@ struct contact_finder contact_finder_begin(struct sim *sim);
 void contact_take_point(const struct contact_finder *f, struct contact_taken *taken, uint32_t point,
                         uint32_t triangle);
 void contact_take_edges(const struct contact_finder *f, struct contact_taken *taken, uint32_t e, uint32_t g);
+/* The cell of a leaf: one that the worker has, or made in the place of one that is not `used`. */
+const struct contact_cell *contact_finder_cell(const struct contact_finder *f, struct contact_taken *taken,
+                                               uint32_t leaf, const struct contact_cell *used);
 /* The pairs of two leaves, for contact_tree_pairs(): of a struct contact_finder. */
 void contact_take_leaves(void *finder, unsigned worker, uint32_t a, uint32_t b);
 /* Looks at what is left. STATUS_RANGE when more is near than there is room for. */

@@ -64,7 +64,7 @@ static uint32_t meet(const struct contact_group *a, const struct contact_group *
     uint32_t count = 0;
     for (uint32_t i = 0; i < firsts; i++) {
         const struct turned turned = turn(&a->box[first[i]]);
-        for (uint32_t j = 0; j < seconds; j++) {
+        for (uint32_t j = a->box == b->box ? i + 1 : 0; j < seconds; j++) {
             couples[count][0] = first[i];
             couples[count][1] = second[j];
             count += meets(&turned, &b->box[second[j]]);

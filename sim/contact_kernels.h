@@ -58,7 +58,7 @@ struct contact_group {
 
 struct contact_kernels {
     /* Of a box of each of two groups those that meet: couples[i] becomes their numbers in a and b; returns
-     * how many there are. There is room for all. */
+     * how many there are. There is room for all. Of a group and itself each two boxes are a couple once. */
     uint32_t (*meet)(const struct contact_group *a, const struct contact_group *b, uint8_t (*couples)[2]);
 
     /* The ways of points[begin] to points[end - 1]. */

@@ -111,6 +111,19 @@ void contact_take_edges(const struct contact_finder *f, struct contact_taken *ta
     take_pair(f, taken, CCD_EDGES, (uint32_t[]){low[0], low[1], high[0], high[1]});
 }
 
+const struct contact_cell *contact_finder_cell(const struct contact_finder *f, struct contact_taken *taken,
+                                               uint32_t leaf, const struct contact_cell *used)
+{
+    const struct contact_tree *tree = &f->contact->tree;
+    uint32_t place = tree->nodes[leaf].number % CONTACT_CELLS;
+    if (&taken->cells[place] == used && used->leaf != leaf)
+        place = CONTACT_CELLS;
+    if (taken->leaf[place] != leaf)
+        contact_tree_cell(tree, f->sim, leaf, &taken->cells[place]);
+    taken->leaf[place] = leaf;
+    return &taken->cells[place];
+}
+
 enum { COUPLES = CONTACT_BESIDE * CONTACT_BESIDE };
 
 /* The first cell's points and the second's triangles. */
@@ -135,21 +148,19 @@ static void take_edges(const struct contact_finder *f, struct contact_taken *tak
                    *of_b = tree->leaf_edge + tree->leaves[tree->nodes[b->leaf].number].edge_begin,
                    count = tree->kernels->meet(&a->edges, &b->edges, couples);
     for (uint32_t i = 0; i < count; i++)
-        if (a->leaf != b->leaf || couples[i][0] < couples[i][1])
-            contact_take_edges(f, taken, of_a[couples[i][0]], of_b[couples[i][1]]);
+        contact_take_edges(f, taken, of_a[couples[i][0]], of_b[couples[i][1]]);
 }
 
 void contact_take_leaves(void *finder, unsigned worker, uint32_t a, uint32_t b)
 {
     const struct contact_finder *f = finder;
     struct contact_taken *taken = &f->contact->taken[worker];
-    struct contact_cell first, second;
-    contact_tree_cell(&f->contact->tree, f->sim, a, &first);
-    contact_tree_cell(&f->contact->tree, f->sim, b, &second);
-    take_points(f, taken, &first, &second);
+    const struct contact_cell *first = contact_finder_cell(f, taken, a, NULL),
+                              *second = contact_finder_cell(f, taken, b, first);
+    take_points(f, taken, first, second);
     if (a != b)
-        take_points(f, taken, &second, &first);
-    take_edges(f, taken, &first, &second);
+        take_points(f, taken, second, first);
+    take_edges(f, taken, first, second);
 }
 
 static void round_part(struct sim *sim, const struct sim_part *part, void *job)
@@ -170,6 +181,8 @@ struct contact_finder contact_finder_begin(struct sim *sim)
         find_stars(sim, c);
         c->shared_broken = sim->broken;
     }
+    for (unsigned i = 0; i < threads_workers(sim->pool); i++)
+        memset(c->taken[i].leaf, 0xff, sizeof c->taken[i].leaf);
     return (struct contact_finder){sim, c, contact_list_gone_before(sim)};
 }
 
