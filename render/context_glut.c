@@ -5,6 +5,7 @@
 #include "render/window.h"
 
 #include <GL/freeglut.h>
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -185,6 +186,17 @@ static void register_events(void)
     glutCloseFunc(on_close);
 }
 
+/* In its proportions, no larger than the screen, where its size is known. */
+static void fit_screen(struct window *window)
+{
+    const double width = glutGet(GLUT_SCREEN_WIDTH), height = glutGet(GLUT_SCREEN_HEIGHT);
+    const double scale = fmin(1, fmin(width / window->width, height / window->height));
+    if (!(scale > 0))
+        return;
+    window->width = (int)fmax(1, floor(scale * window->width));
+    window->height = (int)fmax(1, floor(scale * window->height));
+}
+
 static enum status open_glut(struct window *window, const char *title, struct error *err)
 {
     char name[] = "balloon", *words[] = {name, NULL};
@@ -204,6 +216,7 @@ static enum status open_glut(struct window *window, const char *title, struct er
         glutInitDisplayMode(plain);
     glutInitContextVersion(3, 3);
     glutInitContextProfile(GLUT_CORE_PROFILE);
+    fit_screen(window);
     glutInitWindowSize(window->width, window->height);
     window->id = glutCreateWindow(title);
     window->quad = glutGet(GLUT_WINDOW_STEREO);
