@@ -51,11 +51,12 @@ struct panel_box app_eye(const struct app *app)
     return (struct panel_box){app->x - place[0], app->y - place[1], size[0], size[1]};
 }
 
-/* The next tick, once a picture's time has passed since the last. */
+/* The next tick, once a picture's time has passed since the last; in a pause it only looks for signals. */
 static void schedule(struct app *app)
 {
+    enum { LOOK = 200 }; /* ms */
     const double left = frame_seconds - (app_seconds() - app->clock);
-    window_timer(app->window, app->live.paused ? -1 : left > 0 ? (int)(1e3 * left) : 0);
+    window_timer(app->window, app->live.paused ? LOOK : left > 0 ? (int)(1e3 * left) : 0);
 }
 
 void app_pause(struct app *app, bool paused)
@@ -165,11 +166,15 @@ static void tick(void *self)
 {
     struct app *app = self;
     const double now = app_seconds();
+    if (interrupted(app))
+        return;
+    if (app->live.paused) {
+        schedule(app);
+        return;
+    }
     run(app);
     app->due = fmin(now - app->clock, longest_tick);
     app->clock = now;
-    if (interrupted(app))
-        return;
     app_record_frame(app);
     window_redraw(app->window);
     schedule(app);

@@ -19,8 +19,9 @@ const char app_help[] = "left       prick, drag: pull     middle, alt+left  turn
                         "m  record a movie, end it        p  save a picture\n"
                         "ctrl+q  quit                     F1 ?  this help";
 
-/* A key turns a dial by this part of its slider. */
-static const double key_part = 0.02;
+/* A key turns a dial by this part of its slider. Time is not turned finely, but to a tenth and back. */
+static const double key_part[LIVE_DIALS] = {
+    [LIVE_PRESSURE] = 0.02, [LIVE_STEP] = 0.02, [LIVE_SPRINGS] = 0.02, [LIVE_PACE] = 0.1};
 
 static bool dial_key(struct app *app, int key)
 {
@@ -41,7 +42,7 @@ static bool dial_key(struct app *app, int key)
     };
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
         if (keys[i].key == key) {
-            const double part = app_dial_part(app, keys[i].dial) + keys[i].sign * key_part;
+            const double part = app_dial_part(app, keys[i].dial) + keys[i].sign * key_part[keys[i].dial];
             app_turn(app, keys[i].dial, app_dial_value(app, keys[i].dial, fmax(part, 0)));
             return true;
         }

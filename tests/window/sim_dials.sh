@@ -47,6 +47,15 @@ drag 1 197 552 132 552
 sleep 1
 quit
 log_has "speed by slider" 'at(-1, "time") < 1.2'
+open_live
+pause
+press r space less less less less less # each to a fifth of the slider, which goes from a tenth to the tenfold
+settle
+picture slow
+press r
+sleep 1
+quit
+log_has "speed by key" 'at(-1, "time") < 0.5'
 
 # Where gas makes the pressure the first dial is the pump, 0 in the middle of its slider: at constant temperature (p + ambient) V is the amount.
 open_gas() # ARGUMENT...
