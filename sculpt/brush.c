@@ -175,13 +175,25 @@ static void add_brush(struct outline *outline, const struct session *session)
     }
 }
 
-/* The line that is dragged, a little before the eye. */
+/* The line that is dragged, a little before the eye, with strokes into the side that goes. */
 static void add_cut(struct outline *outline, const struct session *session)
 {
-    double from[3], to[3];
+    enum { STROKES = 12 };
+    const double stroke = 0.012; /* some pixels, at that distance */
+    double from[3], to[3], side[3];
     along(&session->pressed, 1, from);
     along(&session->ray, 1, to);
     add_segment(outline, from, to);
+    vec3_cross(session->pressed.direction, session->ray.direction, side);
+    const double length = vec3_length(side);
+    for (int k = 0; k <= STROKES && length > 0; k++) {
+        double root[3], tip[3];
+        for (int i = 0; i < 3; i++) {
+            root[i] = from[i] + (to[i] - from[i]) * k / STROKES;
+            tip[i] = root[i] + stroke * side[i] / length;
+        }
+        add_segment(outline, root, tip);
+    }
 }
 
 size_t session_outline(const struct session *session, double segments[][2][3], size_t most)

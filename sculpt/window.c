@@ -110,7 +110,9 @@ static void begin_drag(struct app *app, enum window_button button, int modifiers
         app->drag = DRAG_PAN;
     else if (button == WINDOW_MIDDLE || modifiers & WINDOW_ALT)
         app->drag = DRAG_TURN;
-    else if (!app->preview) {
+    else if (app->preview)
+        app_say(app, "The balloon is for looking; p goes back to the sculpture.");
+    else {
         app->drag = DRAG_TOOL;
         hints_say(&app->hints, "");
         app_say_unless_ok(app, session_press(&app->session, &err), &err);
@@ -148,6 +150,8 @@ static void end_drag(struct app *app)
         if (app->session.unsaved && !app->session.saving)
             app->written = NULL;
         tell_forgotten(app);
+        if (app->session.tree.root == 0)
+            app_say(app, "Nothing is left of the cube; ctrl+z takes the last step back.");
     }
     app->drag = DRAG_NOTHING;
     app_aim(app);

@@ -80,6 +80,7 @@ struct app {
     enum next next;       /* after ASK_UNSAVED */
     bool next_when_saved; /* it waits for the end of a save */
     bool sure;            /* a file of the name that was typed may be replaced */
+    bool proposed;        /* the answer is not the hand's: what is typed takes its place */
     char answer[1024];    /* typed so far */
     char opening[1024];   /* the sculpture that ASK_RECOVER, or the model that ASK_HOLLOW, is about */
     struct octree model;  /* imported, while ASK_HOLLOW waits */

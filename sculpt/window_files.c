@@ -167,6 +167,7 @@ void app_ask_name(struct app *app, enum naming naming)
     app->question = ASK_NAME;
     app->naming = naming;
     app->sure = false;
+    app->proposed = app->answer[0] != '\0';
 }
 
 void app_take_name(struct app *app)

@@ -50,8 +50,13 @@ static void answer_hollow(struct app *app, int key, int modifiers)
     octree_clear(&app->model);
 }
 
+/* A letter takes the place of a name that was proposed; backspace takes that name up. */
 static void answer_name(struct app *app, int key, int modifiers)
 {
+    const bool letter = !(modifiers & WINDOW_CTRL) && key >= ' ' && key < 127;
+    if (app->proposed && letter)
+        app->answer[0] = '\0';
+    app->proposed = app->proposed && !letter && key != WINDOW_BACKSPACE;
     const size_t length = strlen(app->answer);
     if (key == WINDOW_ESCAPE) {
         app->question = ASK_NOTHING;
@@ -60,7 +65,7 @@ static void answer_name(struct app *app, int key, int modifiers)
     } else if (key == WINDOW_BACKSPACE && length > 0) {
         app->answer[length - 1] = '\0';
         app->sure = false;
-    } else if (!(modifiers & WINDOW_CTRL) && key >= ' ' && key < 127 && length + 1 < sizeof app->answer) {
+    } else if (letter && length + 1 < sizeof app->answer) {
         app->answer[length] = (char)key;
         app->answer[length + 1] = '\0';
         app->sure = false;
@@ -97,12 +102,14 @@ static void control_key(struct app *app, int key, int modifiers)
 {
     struct error err = {0};
     bool done = true;
+    const char *nothing = "There is nothing more to do again.";
     if (app->drag != DRAG_NOTHING)
         return; /* a step is open */
     switch (key) {
     case 'z':
         done = modifiers & WINDOW_SHIFT ? session_redo(&app->session, &err)
                                         : session_undo(&app->session, &err);
+        nothing = modifiers & WINDOW_SHIFT ? nothing : "There is nothing more to undo.";
         break;
     case 'y':
         done = session_redo(&app->session, &err);
@@ -125,7 +132,7 @@ static void control_key(struct app *app, int key, int modifiers)
     default:
         return;
     }
-    app_say(app, done ? "" : err.text[0] ? err.text : "There is nothing more.");
+    app_say(app, done ? "" : err.text[0] ? err.text : nothing);
     app_remake_balloon(app);
     app_show_title(app);
 }

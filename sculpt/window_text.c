@@ -11,7 +11,8 @@ static const char help[] = "left       tool              middle, alt+left  turn\
                            "ctrl+wheel + -  brush size   shift+wheel [ ]   brush depth\n"
                            "\n"
                            "s  sphere    b  box        c  cylinder    d  draw a stroke\n"
-                           "k  cut by a dragged line   n  sandpaper   h  heat\n"
+                           "k  cut: what lies right of a dragged line\n"
+                           "n  sandpaper   h  heat\n"
                            "tab  chip or fill          g  snap to the grid of cells\n"
                            "x y z  mirror              m  next material to fill with\n"
                            "\n"
@@ -64,6 +65,8 @@ static void describe_question(const struct app *app, char *text, size_t size)
         break;
     case ASK_NAME:
         snprintf(text, size, names[app->naming], app->answer);
+        if (app->proposed)
+            strncat(text, "     backspace  change this name", size - strlen(text) - 1);
         break;
     default:
         break;

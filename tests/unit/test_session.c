@@ -100,6 +100,11 @@ static void a_cut_takes_what_lies_to_the_right_of_the_line(void **state)
     session_aim(&session, eye, left);
     assert_ok(session_press(&session, &err), &err);
     session_aim(&session, eye, right);
+    double line[32][2][3]; /* and strokes from it to the side that goes, here below */
+    const size_t strokes = session_outline(&session, line, 32);
+    assert_true(strokes > 2);
+    for (size_t i = 1; i < strokes; i++)
+        assert_true(line[i][1][1] < line[i][0][1]);
     assert_ok(session_drag(&session, &err), &err);
     assert_ok(session_release(&session, &err), &err);
     assert_script("depth 4\nchip half-space 0.5 0.5 0.5 0 -1 0\n"); /* drawn to the right: what is below */

@@ -108,6 +108,12 @@ type_name tiff
 picture tiff
 [ ! -e a.tiff ] || fail "it writes .tiff"
 press Escape
+press ctrl+e
+picture proposed
+type_name typed.vox # in place of the name that is proposed
+until_true "no typed.vox" [ -s typed.vox ]
+settle
+cmp -s typed.vox want.vox || fail "typed.vox is another export"
 press ctrl+shift+s
 press BackSpace BackSpace BackSpace BackSpace BackSpace
 cp other.oct kept.oct
