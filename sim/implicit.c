@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NEWTON_ITERATIONS_MAX = 12, HALVINGS_MAX = 10 };
+/* Rounding of places, by forces that a whole skin adds up, moves them by so many times as much. */
+enum { NEWTON_ITERATIONS_MAX = 12, HALVINGS_MAX = 10, NOISE = 64 };
 
 /* The residual that a linear solve leaves, and what of the first correction may be left when
  * Newton's method stops. With 1e-3 or 1e-5 for the former, a step took a tenth less or more time, on
@@ -114,10 +115,11 @@ static double rounding(struct sim *sim, double c)
 }
 
 /* Remembers which point is furthest from a solution, for the message. */
-static void note_worst(struct sim *sim)
+static void note_worst(struct sim *sim, bool is_linear)
 {
     struct implicit *m = sim->method;
     double(*rhs)[4] = sim->scratch[IMPLICIT_RHS];
+    m->is_linear = is_linear;
     m->worst = -1;
     for (uint32_t p = 0; p < sim->point_count; p++) {
         const double size = sqrt(rhs[p][0] * rhs[p][0] + rhs[p][1] * rhs[p][1] + rhs[p][2] * rhs[p][2]);
@@ -130,6 +132,19 @@ static void note_worst(struct sim *sim)
     }
 }
 
+bool implicit_correct(struct sim *sim, double c, double tolerance)
+{
+    struct implicit *m = sim->method;
+    double(*rhs)[4] = sim->scratch[IMPLICIT_RHS], (*change)[4] = sim->scratch[IMPLICIT_CHANGE];
+    if (solver_solve(sim, &m->solver, rhs, change, tolerance))
+        return true;
+    vector_combine(sim, change, NULL, NULL, 0);
+    if (c * solver_size(sim, &m->solver, rhs) <= NOISE * rounding(sim, c))
+        return true;
+    note_worst(sim, true);
+    return false;
+}
+
 /* One of Newton's steps; *size becomes the RMS change of place. */
 static bool newton(struct sim *sim, double c, double *size)
 {
@@ -138,7 +153,7 @@ static bool newton(struct sim *sim, double c, double *size)
     sim_each_part(sim, residual_part, &c);
     sim_linearise(sim);
     solver_prepare(sim, &m->solver, c * c, c);
-    if (!solver_solve(sim, &m->solver, sim->scratch[IMPLICIT_RHS], change, linear_tolerance))
+    if (!implicit_correct(sim, c, linear_tolerance))
         return false;
     vector_add(sim, sim->velocity, 1, change);
     place_points(sim, c);
@@ -148,11 +163,13 @@ static bool newton(struct sim *sim, double c, double *size)
 
 bool implicit_solve(struct sim *sim, double c)
 {
-    double first = 0, before = INFINITY, size;
+    double first = 0, before = INFINITY, size = INFINITY;
     place_points(sim, c);
     for (int i = 0; i < NEWTON_ITERATIONS_MAX; i++, before = size) {
         const double scalar_change = evaluate(sim, c);
-        if (!newton(sim, c, &size) || (i > 1 && size > before))
+        if (!newton(sim, c, &size))
+            return false;
+        if (i > 1 && size > before)
             break;
         first = fmax(first, size);
         const double left = i == 0 ? linear_tolerance * size : size * (size / before);
@@ -163,8 +180,8 @@ bool implicit_solve(struct sim *sim, double c)
             return true;
         }
     }
-    note_worst(sim);
-    return false;
+    note_worst(sim, false);
+    return size <= NOISE * rounding(sim, c); /* corrections that no longer shrink are noise of stiff forces */
 }
 
 static void remember_start(struct sim *sim)
@@ -195,12 +212,14 @@ static enum status give_up(struct sim *sim, double dt, struct error *err)
         err, STATUS_DIVERGED,
         "%s: diverged at time %g (step %llu): %s%s%s%s finds no solution even over %.3g s, a 1024th of "
         "the step of %g; furthest from one is point %u of balloons[%zu] at (%g, %g, %g), by an "
-        "acceleration of %.3g; forces that change this fast want another integrator, or other "
-        "springs, masses or pressure",
+        "acceleration of %.3g; %s",
         sim->scene->path, sim->time, (unsigned long long)sim->steps, sim->acting->name,
         chosen ? " (chosen by " : "", chosen ? sim->integrator->name : "", chosen ? ")" : "",
         dt / (1 << HALVINGS_MAX), dt, m->worst_point - sim->balloons[b].point_begin, b, x[0], x[1], x[2],
-        m->worst * (1 << HALVINGS_MAX) / dt);
+        m->worst * (1 << HALVINGS_MAX) / dt,
+        m->is_linear
+            ? "what is stiff there is too stiff for 16 digits: softer, heavier or shorter steps will do"
+            : "forces that change this fast want another integrator, or other springs, masses or pressure");
 }
 
 static void turning_part(struct sim *sim, const struct sim_part *part, void *context)

@@ -34,6 +34,7 @@ struct implicit {
     bool *turned;             /* [part_count] whether an edge has */
     double worst;             /* residual over mass of the point whose equation was furthest from solved, */
     uint32_t worst_point;     /* when it was given up last */
+    bool is_linear;           /* that was because a linear system was not solved */
 };
 enum status implicit_open(struct sim *sim, struct error *err);
 void implicit_close(struct sim *sim);
@@ -41,6 +42,12 @@ void implicit_close(struct sim *sim);
 /* Solves the equation from a first guess in sim->velocity, and leaves the solution in sim->position, velocity
  * and scalar. False: none was found from there. */
 bool implicit_solve(struct sim *sim, double c);
+
+/* Newton's correction of velocities for the right-hand side in IMPLICIT_RHS, into IMPLICIT_CHANGE:
+ * what solver_solve() finds, which was prepared for c. Nothing where the right-hand side is no more
+ * than rounding of places: that of a stiff skin at rest is noise, which no solver makes smaller.
+ * False: it is not solved. */
+bool implicit_correct(struct sim *sim, double c, double tolerance);
 
 /* y = (1 + w) y - w (the start of the step), of positions, velocities and scalars alike;
  * for midpoints and BDF2. */

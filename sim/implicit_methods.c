@@ -40,7 +40,7 @@ static bool take_backward_euler(struct sim *sim, double h)
     sim_force_product(sim, h, sim->velocity, 0, sim->velocity, rhs);
     sim_each_part(sim, euler_part, &h);
     const double all = solver_size(sim, &m->solver, rhs);
-    if (!solver_solve(sim, &m->solver, rhs, change, 1e-6))
+    if (!implicit_correct(sim, h, 1e-6))
         return false;
     vector_add(sim, sim->velocity, 1, change);
     vector_add(sim, sim->position, h, sim->velocity);
