@@ -40,7 +40,8 @@ struct plot_series {
     const double *x, *y;      /* [count] */
     const char *const *label; /* [count] beside each point, or below each bar; NULL: none */
     size_t count;
-    int colour, mark; /* 0: by its place among the series */
+    int colour, mark;  /* 0: by its place among the series */
+    bool labels_below; /* on the left of their points, where those of another series would cover them */
 };
 
 struct plot_panel {

@@ -112,14 +112,15 @@ static void put_axes(FILE *script, const struct plot_panel *panel)
                 axis, axis);
     }
     put_range(script, panel);
-    /* Labels beside points need room; the lines of a time series end where the time does. */
-    bool lines = panel->series_count && panel->series[0].style == PLOT_LINE;
-    fputs(lines ? "set autoscale xfix\nset offsets 0, 0, graph 0.05, graph 0.02\n"
-                : "set autoscale x\nset offsets graph 0.02, graph 0.08, graph 0.05, 0\n",
-          script);
     bool named = false;
     for (size_t i = 0; i < panel->series_count; i++)
         named = named || panel->series[i].name;
+    /* Labels beside points need room, and so does a key among lines, which end where the time does. */
+    bool lines = panel->series_count && panel->series[0].style == PLOT_LINE;
+    fputs(!lines ? "set autoscale x\nset offsets graph 0.02, graph 0.08, graph 0.05, 0\n"
+          : named && !panel->key_outside ? "set autoscale xfix\nset offsets 0, 0, graph 0.3, graph 0.02\n"
+                                         : "set autoscale xfix\nset offsets 0, 0, graph 0.05, graph 0.02\n",
+          script);
     fputs(!named               ? "set key off\n"
           : panel->key_outside ? "set key on outside right top nobox\n"
                                : "set key on inside right top box lc rgb '#d0d0d0' width 1\n",
@@ -156,10 +157,8 @@ static void put_series(FILE *script, const struct plot_panel *panel, size_t inde
     put_text(script, s->name);
     fputs(s->name ? " noenhanced" : "", script);
     if (s->label && s->style != PLOT_BARS)
-        fprintf(script,
-                ", $series%zu using 1:2:3 with labels left offset 0.8,0.5 font ',9' noenhanced tc rgb '%s' "
-                "notitle",
-                index, colour);
+        fprintf(script, ", $series%zu using 1:2:3 with labels %s font ',9' noenhanced tc rgb '%s' notitle",
+                index, s->labels_below ? "right offset -0.8,-0.5" : "left offset 0.8,0.5", colour);
 }
 
 static void put_panel(FILE *script, const struct plot_panel *panel)

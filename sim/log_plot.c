@@ -112,10 +112,11 @@ static enum status draw(const struct table *table, const char *title, const char
     const struct plot_series energy[] = {curve(table, "kinetic", KINETIC), curve(table, "elastic", ELASTIC),
                                          curve(table, "gas", GAS)};
     const struct plot_panel panels[] = {
-        {"Pressure", "time", "gauge pressure", .from_zero = true, .series = &pressure, .series_count = 1},
-        {"Radius", "time", "mean radius", .series = &radius, .series_count = 1},
-        {"Energy", "time", "energy", .from_zero = true, .series = energy, .series_count = gas ? 3 : 2},
-        {"Pieces", "time", "pieces", .from_zero = true, .whole = true, .series = &pieces, .series_count = 1}};
+        {"Pressure", "time, s", "gauge pressure", .from_zero = true, .series = &pressure, .series_count = 1},
+        {"Radius", "time, s", "mean radius", .series = &radius, .series_count = 1},
+        {"Energy", "time, s", "energy", .from_zero = true, .series = energy, .series_count = gas ? 3 : 2},
+        {"Pieces", "time, s", "pieces", .from_zero = true, .whole = true, .series = &pieces,
+         .series_count = 1}};
     return plot_save(&(struct plot){.title = title, .panels = panels, .panel_count = 4, .columns = 2}, path,
                      err);
 }

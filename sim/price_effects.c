@@ -38,18 +38,29 @@ static void print_table(const void *context, FILE *stream)
     }
 }
 
+/* Where the bars of changes stand, a decade below the least: there what changes nothing has none. */
+static double least_change(const struct effect_cost_table *table)
+{
+    double least = INFINITY;
+    for (size_t i = 0; i < table->count; i++)
+        if (!*table->rows[i].refused && table->rows[i].position > 0)
+            least = fmin(least, table->rows[i].position);
+    return isfinite(least) ? fmax(1e-16, pow(10, floor(log10(least)) - 1)) : 1e-16;
+}
+
 /* Shares of the time, and beside them how much the answer changes. */
 static enum status draw(const void *context, const char *scene, const char *path, struct error *err)
 {
     const struct effect_cost_table *table = context;
     double share[EFFECT_COST_ROWS_MAX], change[EFFECT_COST_ROWS_MAX];
     const char *name[EFFECT_COST_ROWS_MAX];
+    const double least = least_change(table);
     size_t count = 0;
     for (size_t i = 0; i < table->count; i++)
         if (!*table->rows[i].refused) {
             name[count] = table->rows[i].effect->name;
             share[count] = 100 * table->rows[i].share;
-            change[count++] = fmax(table->rows[i].position, 1e-16);
+            change[count++] = fmax(table->rows[i].position, least);
         }
     const struct plot_series of_time = {
         .style = PLOT_BARS, .y = share, .label = name, .count = count, .colour = 1};

@@ -136,7 +136,8 @@ static void add_pictures(struct pictures *p, const struct price_pictures *pictur
                                                          .x = p->mean + i,
                                                          .y = p->seconds + i,
                                                          .label = p->label + i,
-                                                         .count = (size_t)pictures->samples};
+                                                         .count = (size_t)pictures->samples,
+                                                         .labels_below = row->order == SCENE_ORDER_SORT};
     }
 }
 

@@ -2,6 +2,7 @@
 #include "check.h"
 #include "common/file.h"
 #include "common/plot.h"
+#include "common/plot_script.h"
 #include "folder.h"
 
 #include <sys/stat.h>
@@ -71,6 +72,40 @@ static void a_count_is_drawn_from_nothing_up_in_whole_steps(void **state)
     bytes_clear(&bytes);
 }
 
+static bool script_has(const struct plot_panel *panel, const char *words)
+{
+    char *script = NULL;
+    size_t size;
+    FILE *file = open_memstream(&script, &size);
+    assert_non_null(file);
+    plot_write_script(&(struct plot){.panels = panel, .panel_count = 1, .columns = 1}, true, file);
+    fclose(file);
+    const bool found = strstr(script, words);
+    free(script);
+    return found;
+}
+
+/* A key inside takes the upper right corner, where lines end that rise. */
+static void no_key_and_no_label_covers_what_is_drawn(void **state)
+{
+    (void)state;
+    struct plot_series series = {.name = "a", .style = PLOT_LINE, .x = x, .y = y, .count = 2};
+    struct plot_panel panel = {.series = &series, .series_count = 1};
+    const char *room = "set offsets 0, 0, graph 0.3, ", *below = "with labels right offset -0.8,-0.5 ";
+    assert_true(script_has(&panel, room));
+    panel.key_outside = true;
+    assert_false(script_has(&panel, room));
+    series.name = NULL;
+    panel.key_outside = false;
+    assert_false(script_has(&panel, room));
+
+    series.style = PLOT_CURVE;
+    series.label = label;
+    assert_false(script_has(&panel, below));
+    series.labels_below = true;
+    assert_true(script_has(&panel, below));
+}
+
 static void without_gnuplot_the_message_says_how_to_get_it_and_the_old_file_stays(void **state)
 {
     (void)state;
@@ -104,6 +139,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_style_is_drawn_as_png_and_svg_whatever_the_points_and_texts),
         cmocka_unit_test(a_count_is_drawn_from_nothing_up_in_whole_steps),
+        cmocka_unit_test(no_key_and_no_label_covers_what_is_drawn),
         cmocka_unit_test(without_gnuplot_the_message_says_how_to_get_it_and_the_old_file_stays),
         cmocka_unit_test(other_extensions_are_refused),
     };
