@@ -252,7 +252,7 @@ static enum status walk_all(struct accuracy_plan *plan, struct error *err)
     struct accuracy_states states = {0};
     enum status status = STATUS_OK;
     for (size_t i = 0; integrators[i] && !status; i++) {
-        plan->subject.done = 0.3 + 0.5 * (double)i / (double)plan->methods;
+        plan->subject.done = ACCURACY_REFERENCES_DONE + 0.5 * (double)i / (double)plan->methods;
         status = walk(plan, integrators[i], &states, err);
     }
     accuracy_states_close(&states);

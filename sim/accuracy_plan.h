@@ -10,6 +10,9 @@
 #define ACCURACY_LADDERS_SHARE   0.4
 #define ACCURACY_BURSTS_SHARE    0.3
 
+/* What progress tells when the references are there. */
+#define ACCURACY_REFERENCES_DONE 0.3
+
 struct accuracy_plan {
     struct accuracy_subject subject;
     struct accuracy_table *table;

@@ -19,6 +19,12 @@ static double budget(const struct accuracy_plan *plan)
     return ACCURACY_REFERENCE_SHARE * plan->subject.options->seconds;
 }
 
+/* How many runs it takes is not known beforehand: each goes a part of the way that is left. */
+static void tell_run(struct accuracy_plan *plan)
+{
+    plan->subject.done += 0.25 * (ACCURACY_REFERENCES_DONE - plan->subject.done);
+}
+
 static enum status find_tolerant(struct accuracy_plan *plan, const struct pair *pair,
                                  struct accuracy_states *states, struct error *err)
 {
@@ -29,6 +35,7 @@ static enum status find_tolerant(struct accuracy_plan *plan, const struct pair *
             const struct accuracy_dials dials = accuracy_dials_of(plan, method, tolerance);
             struct accuracy_run run;
             status = accuracy_go(&run, &plan->subject, &dials, budget(plan), states, err);
+            tell_run(plan);
             if (!status) {
                 snprintf(plan->table->reference[0], sizeof plan->table->reference[0],
                          "%s at time.tolerance=%g", method->name, tolerance);
@@ -79,6 +86,7 @@ static enum status halve(struct accuracy_plan *plan, const struct integrator *me
     const struct accuracy_dials dials = accuracy_dials_of(plan, method, plan->step / h->parts);
     struct accuracy_run run;
     enum status status = accuracy_go(&run, &plan->subject, &dials, 4 * budget(plan), &h->fine, err);
+    tell_run(plan);
     if (status)
         return status;
     if (h->coarse.position[0]) {

@@ -30,7 +30,17 @@ struct relax {
     struct probe *probe; /* [workers] */
     double *worst;       /* [workers] residual */
     double mean;
+    int turn; /* at the end */
 };
+
+/* Turns at the end take about as long as the rounds; how many it needs is not known before, so that each
+ * goes half of the way that is left. */
+static void tell(const struct relax *x, double rounds, double turns)
+{
+    const double most = fmax(1, x->settings->rounds), done = rounds / most + 1 - exp2(-turns);
+    if (x->settings->progress)
+        x->settings->progress(x->settings->progress_context, done / 2);
+}
 
 static void settle_points(void *context, size_t block, unsigned worker)
 {
@@ -43,6 +53,8 @@ static void settle_points(void *context, size_t block, unsigned worker)
                                        x->r.position[p], x->r.normal[p]);
         x->worst[worker] = fmax(x->worst[worker], residual);
     }
+    if (worker == 0)
+        tell(x, x->settings->rounds, x->turn + (double)range.end / x->r.point_count);
 }
 
 static bool smooth(struct relax *x)
@@ -80,12 +92,6 @@ static bool change_edges(struct relax *x)
     return true;
 }
 
-static void tell(const struct relax *x, unsigned round)
-{
-    if (x->settings->progress)
-        x->settings->progress(x->settings->progress_context, (double)round / (x->settings->rounds + 2));
-}
-
 /* Edges change in the first two thirds of the rounds; then points settle. */
 static bool run(struct relax *x)
 {
@@ -94,9 +100,10 @@ static bool run(struct relax *x)
         if (3 * round < 2 * x->settings->rounds)
             good = change_edges(x);
         good = good && smooth(x);
-        tell(x, round + 1);
+        tell(x, round + 1, 0);
     }
     for (int turn = 0; turn <= CURES && good; turn++) {
+        x->turn = turn;
         memset(x->worst, 0, threads_workers(x->settings->pool) * sizeof *x->worst);
         smoothing_blocks(&x->r, x->settings->pool, settle_points, x);
         x->mean = edges_mean(&x->r);

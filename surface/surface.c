@@ -64,6 +64,21 @@ static void add_stats(const struct mesher *m, struct surface_stats *stats)
     }
 }
 
+/* Progress of a part of the work as that of the whole: smoothing takes most of it. */
+struct part {
+    const struct surface_options *options;
+    double from, to;
+};
+
+static const double found = 0.3;
+
+static void tell_part(void *context, double done)
+{
+    const struct part *part = context;
+    if (part->options->progress)
+        part->options->progress(part->options->progress_context, part->from + (part->to - part->from) * done);
+}
+
 /* Finds the surface at a cube size given in cells; m is to be cleared when STATUS_OK. */
 static enum status find(const struct making *making, double cube, bool count_only, struct mesher *m,
                         struct error *err)
@@ -72,9 +87,10 @@ static enum status find(const struct making *making, double cube, bool count_onl
     if (check_memory(making, cube, err) ||
         mesher_init(m, &making->field, options->threshold, cube, making->pool, err))
         return err->status;
+    struct part part = {options, 0, options->relax ? found : 1};
     m->count_only = count_only;
-    m->progress = count_only ? NULL : options->progress;
-    m->progress_context = options->progress_context;
+    m->progress = count_only ? NULL : tell_part;
+    m->progress_context = &part;
     making->stats->seeds_random = 0;
     if (options->seeds == SURFACE_RANDOM && !count_only) {
         seeds_random(m, options->seed);
@@ -192,13 +208,14 @@ static enum status explain_nothing(const struct making *making, double cube, str
 static enum status relax(const struct making *making, struct mesh *mesh, struct error *err)
 {
     const struct surface_options *o = making->options;
+    struct part part = {o, found, 1};
     const struct relax_settings settings = {.field = &making->field,
                                             .threshold = o->threshold,
                                             .rounds = o->relax,
                                             .triangles = o->triangles,
                                             .pool = making->pool,
-                                            .progress = o->progress,
-                                            .progress_context = o->progress_context};
+                                            .progress = tell_part,
+                                            .progress_context = &part};
     struct relax_stats stats;
     enum status status = relax_mesh(mesh, &settings, &stats, err);
     making->stats->evaluations += stats.evaluations;

@@ -159,6 +159,42 @@ static void a_number_of_triangles_is_met_within_5_percent(void **state)
     octree_clear(&tree);
 }
 
+struct told {
+    double last;
+    unsigned times;
+    bool fell;
+};
+
+static void hear(void *context, double done)
+{
+    struct told *told = context;
+    told->fell = told->fell || done < told->last;
+    told->last = done;
+    told->times++;
+}
+
+/* Meshing and smoothing are one work to who waits: told in many steps that never go back, nearly to the end. */
+static void progress_rises_through_meshing_and_smoothing(void **state)
+{
+    (void)state;
+    for (unsigned relax = 0; relax <= 10; relax += 10) {
+        struct octree tree = new_tree(2, 1);
+        struct told told = {0};
+        struct surface_options options = surface_defaults();
+        options.cube_size = 0.05;
+        options.relax = relax;
+        options.threads = 1;
+        options.progress = hear;
+        options.progress_context = &told;
+        struct mesh mesh = make(&tree, &options);
+        assert_false(told.fell);
+        assert_true(told.times > 2 * relax);
+        assert_true(told.last > 0.8 && told.last <= 1);
+        mesh_clear(&mesh);
+        octree_clear(&tree);
+    }
+}
+
 static void refuse(const struct octree *tree, const struct surface_options *options, enum status status,
                    const char *part)
 {
@@ -225,6 +261,7 @@ int main(void)
         cmocka_unit_test(materials_weigh_by_their_coefficient),
         cmocka_unit_test(area_fields_alone_make_a_shell_with_two_skins),
         cmocka_unit_test(a_number_of_triangles_is_met_within_5_percent),
+        cmocka_unit_test(progress_rises_through_meshing_and_smoothing),
         cmocka_unit_test(what_has_no_surface_is_refused_with_the_reason),
         cmocka_unit_test(the_cube_size_that_a_refusal_names_works),
     };
