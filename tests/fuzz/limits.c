@@ -1,4 +1,5 @@
 #include "limits.h"
+#include "../support/slowdown.h"
 
 #include <malloc.h>
 #include <stdatomic.h>
@@ -30,7 +31,7 @@ void limits_end(size_t size)
 {
     const double seconds = now() - began, megabytes = (double)size / MEGABYTE;
     const long long allowed = MEMORY_TIMES * (long long)size + MEMORY_BASE;
-    if (peak <= allowed && seconds <= 1 + megabytes)
+    if (peak <= allowed && seconds <= (1 + megabytes) * slowdown())
         return;
     fprintf(stderr, "%zu bytes took %lld bytes of memory, %lld are allowed, and %.3g s\n", size,
             (long long)peak, allowed, seconds);

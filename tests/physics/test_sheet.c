@@ -27,6 +27,7 @@ static void make_sheet(struct mesh *mesh)
         const bool inner = i > 0 && j > 0 && i < SIDE && j < SIDE;
         mesh->position[p][0] = i + (inner ? 0.4 * random_unit(&random) - 0.2 : 0);
         mesh->position[p][1] = j + (inner ? 0.4 * random_unit(&random) - 0.2 : 0);
+        mesh->position[p][2] = 0;
     }
     for (uint32_t cell = 0, t = 0; cell < SIDE * SIDE; cell++) {
         const uint32_t a = cell / SIDE * row + cell % SIDE, b = a + 1, c = b + row, d = a + row;

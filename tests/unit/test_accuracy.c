@@ -1,6 +1,7 @@
 /* The table of what accuracy costs: every method is in it, and its errors fall with its order. */
 #include "balloon.h"
 #include "sim/accuracy.h"
+#include "support/slowdown.h"
 
 #include <math.h>
 #include <string.h>
@@ -51,7 +52,7 @@ static void every_method_is_there_and_errors_fall_with_its_order(void **state)
     (void)state;
     static struct accuracy_table table;
     struct error err = {0};
-    assert_ok(measure(CALM, &(struct accuracy_options){.seconds = 10}, &table, &err), &err);
+    assert_ok(measure(CALM, &(struct accuracy_options){.seconds = 10 * slowdown()}, &table, &err), &err);
     size_t methods = 0;
     for (; integrators[methods]; methods++) {
         size_t first = 0;
@@ -75,7 +76,7 @@ static void references_agree_ten_times_better_than_the_best_row(void **state)
     (void)state;
     static struct accuracy_table table;
     struct error err = {0};
-    assert_ok(measure(CALM, &(struct accuracy_options){.seconds = 2}, &table, &err), &err);
+    assert_ok(measure(CALM, &(struct accuracy_options){.seconds = 2 * slowdown()}, &table, &err), &err);
     for (size_t i = 0; i < table.count; i++)
         assert_true(table.rows[i].error >= 10 * table.agreement);
     assert_true(table.agreement < 1e-10);
@@ -92,7 +93,7 @@ static void the_span_ends_before_the_first_break_and_ensembles_go_past_it(void *
     static struct accuracy_table table;
     struct error err = {0};
     int ensembles = 0;
-    assert_ok(measure(BURSTING, &(struct accuracy_options){.seconds = 2}, &table, &err), &err);
+    assert_ok(measure(BURSTING, &(struct accuracy_options){.seconds = 2 * slowdown()}, &table, &err), &err);
     assert_true(isfinite(table.first_break) && table.span < table.first_break);
     assert_true(table.burst_end > table.burst && table.burst >= table.first_break);
     for (size_t i = 0; i < table.count; i++) {
@@ -118,7 +119,7 @@ static void it_ends_when_somebody_wants_it_to(void **state)
     static struct accuracy_table table;
     struct error err = {0};
     int asked = 0;
-    const struct accuracy_options options = {.seconds = 3, .go_on = stop, .context = &asked};
+    const struct accuracy_options options = {.seconds = 3 * slowdown(), .go_on = stop, .context = &asked};
     assert_int_equal(measure(CALM, &options, &table, &err), STATUS_INTERRUPTED);
     assert_int_equal(asked, 20);
 }
