@@ -133,27 +133,26 @@ static double parts_needed(const struct sim *sim)
 
 /* Within a step that is split already: what was stable at its start no longer is, since speeds
  * or stretches have grown. */
-static void split_further(struct sim *sim)
+static enum status split_further(struct sim *sim, struct error *err)
 {
     const double more = ceil(sim->step / sim->guard->memory.stable * (1 - 1e-12));
-    if (!(more > 1) || sim->integrator->flags & INTEGRATOR_ADAPTIVE ||
-        !(more * sim->substeps <= GUARD_PARTS_MAX))
-        return;
+    if (!(more > 1) || sim->integrator->flags & INTEGRATOR_ADAPTIVE)
+        return STATUS_OK;
+    if (!(more * sim->substeps <= GUARD_PARTS_MAX))
+        return refuse(sim, err);
     sim->substeps *= (uint32_t)more;
     sim->steps_since *= (uint64_t)more;
     sim->step = sim->whole_step / sim->substeps;
     sim->changed = true;
+    return STATUS_OK;
 }
 
 enum status guard_step(struct sim *sim, bool first, struct error *err)
 {
     const int guard = sim->scene->time.guard;
     look(sim);
-    if (!first) {
-        if (guard == SCENE_GUARD_SUBSTEP)
-            split_further(sim);
-        return STATUS_OK;
-    }
+    if (!first)
+        return guard == SCENE_GUARD_SUBSTEP ? split_further(sim, err) : STATUS_OK;
     const double wanted = fmax(sim->wanted_substeps, 1),
                  parts = guard == SCENE_GUARD_OFF ? wanted : fmax(parts_needed(sim), wanted);
     if (parts > wanted && (guard == SCENE_GUARD_REFUSE || !(parts <= GUARD_PARTS_MAX)))
@@ -214,7 +213,8 @@ void guard_describe(struct sim *sim, char *text, size_t size)
     if (parts > 1 && parts <= GUARD_PARTS_MAX && sim->scene->time.guard == SCENE_GUARD_SUBSTEP)
         used = snprintf(text, size, "time.step %g is split in %.0f: ", step, parts);
     else if (parts > 1)
-        used = snprintf(text, size, "time.step %g is too large: ", step);
+        used = snprintf(text, size, "time.step %g is too large%s: ", step,
+                        sim->scene->time.guard == SCENE_GUARD_SUBSTEP ? " to be split" : "");
     if (memory->cause == GUARD_TUBE) {
         snprintf(
             text + used, size - (size_t)used,

@@ -286,6 +286,23 @@ static void drag_that_grows_within_a_step_splits_it_further(void **state)
     close_balloon(&b);
 }
 
+/* A step is split in a million parts at the most: one that needs more before it is through, here since a
+ * balloon is thrown into dense air, goes no further. */
+static void what_no_split_follows_any_more_is_refused_within_a_step_too(void **state)
+{
+    (void)state;
+    struct balloon b;
+    struct error err = {0};
+    open_balloon(&b, 1, HARD("drag.air_density=10", "drag.wind=[10, 0, 0]", "balloons[0].pressure=0"));
+    b.sim.whole_step = b.sim.step = 0.9e6 * guard_stable_step(&b.sim);
+    steps(&b, 1);
+    for (uint32_t p = 0; p < b.sim.point_count; p++)
+        b.sim.velocity[p][0] = -1000;
+    steps(&b, 1); /* by the bound that was */
+    assert_refused(sim_step(&b.sim, &err), STATUS_DIVERGED, "is too large to be split: steps up to", &err);
+    close_balloon(&b);
+}
+
 /* Dense air that blows hard, a bag of stiff gas, stiff strings and arms: each shakes a point faster than the
  * step can follow. Whether a method solves equations for them, chooses its steps or has them split, energy
  * stays what there is: steps() fails where it does not. */
@@ -322,6 +339,7 @@ int main(void)
         cmocka_unit_test(what_pushes_out_of_the_blue_is_no_divergence),
         cmocka_unit_test(drag_that_grows_within_a_step_splits_it_further),
         cmocka_unit_test(gas_whose_volume_goes_to_nothing_ends_the_run_and_says_so),
+        cmocka_unit_test(what_no_split_follows_any_more_is_refused_within_a_step_too),
         cmocka_unit_test(every_method_follows_effects_stiffer_than_its_step),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

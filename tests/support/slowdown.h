@@ -1,5 +1,5 @@
-/* How many times slower a test is than by itself, where that matters to what there is time for: valgrind's set-up
- * says so (tests/meson.build). */
+/* How many times slower a test is than by itself, where that matters to what there is time for: valgrind's
+ * set-up says so (tests/meson.build). */
 #ifndef TESTS_SUPPORT_SLOWDOWN_H
 #define TESTS_SUPPORT_SLOWDOWN_H
 
