@@ -7,6 +7,7 @@
 #include "sim/run.h"
 #include "sim/window.h"
 
+#include <math.h>
 #include <signal.h>
 #include <stdlib.h>
 
@@ -31,6 +32,37 @@ static void note_repairs(const struct scene *scene, const struct mesh_report *re
             command_note("%s: %zu points join sheets that touch there only", scene->balloons[i].mesh,
                          reports[i].pinched_points);
     }
+}
+
+/* Whether the boxes around two balloons share room. */
+static bool overlap(const struct sim *sim, const struct sim_balloon *a, const struct sim_balloon *b)
+{
+    for (int i = 0; i < 3; i++) {
+        double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+        const struct sim_balloon *both[] = {a, b};
+        for (int n = 0; n < 2; n++)
+            for (uint32_t p = both[n]->point_begin; p < both[n]->point_end; p++) {
+                low[n] = fmin(low[n], sim->position[p][i]);
+                high[n] = fmax(high[n], sim->position[p][i]);
+            }
+        if (low[0] >= high[1] || low[1] >= high[0])
+            return false;
+    }
+    return true;
+}
+
+/* Once: with contact they would not be let begin so. */
+static void note_overlap(const struct sim *sim)
+{
+    for (size_t i = 0; i < sim->balloon_count && !sim->scene->contact.on; i++)
+        for (size_t k = 0; k < i; k++)
+            if (overlap(sim, &sim->balloons[k], &sim->balloons[i])) {
+                command_note(
+                    "balloons[%zu] and balloons[%zu] begin in one another's room, and pass through each "
+                    "other: move them apart, and give contact = { };",
+                    k, i);
+                return;
+            }
 }
 
 /* *meshes becomes [balloon_count], also on failure; NULL when there is no memory. */
@@ -80,6 +112,8 @@ static enum status simulate(const struct options *options, const struct scene *s
         status = estimate_open(&sim, *meshes, options->threads, &estimate, err);
     free_meshes(scene, *meshes);
     *meshes = NULL;
+    if (!status)
+        note_overlap(&sim);
     if (!status && options->explain)
         explain_bursts(&sim, stdout);
     else if (!status && options->check)

@@ -2,6 +2,7 @@
 #include "common/command.h"
 #include "common/file.h"
 #include "common/plot.h"
+#include "common/vec3.h"
 #include "sim/auto.h"
 #include "sim/guard.h"
 #include "sim/interrupt.h"
@@ -188,6 +189,34 @@ static enum status save_pieces(struct sim *sim, const char *path, struct error *
     return status;
 }
 
+/* How far the point is from the nearest one of all skin. */
+static double distance_of_skin(const struct sim *sim, const double place[3])
+{
+    double least = INFINITY;
+    for (uint32_t t = 0; t < sim->triangle_count; t++)
+        for (int k = 0; k < 3 && sim->triangle_active[t]; k++)
+            least = fmin(least, vec3_distance(place, sim->position[sim->triangle_point[t][k]]));
+    return least;
+}
+
+/* Where nothing broke: where the needles were. */
+static void note_needles(const struct sim *sim)
+{
+    for (size_t i = 0; i < sim->scene->needles_count; i++) {
+        const struct scene_needles *needle = &sim->scene->needles[i];
+        if (needle->at >= sim->time) {
+            command_note("needles[%zu] comes at %g s only", i, needle->at);
+            continue;
+        }
+        double place[3];
+        for (int k = 0; k < 3; k++)
+            place[k] = needle->from[k] + needle->velocity[k] * (sim->time - needle->at);
+        command_note(
+            "needles[%zu] met no skin: at the end it is at (%.4g, %.4g, %.4g), %.3g from the nearest", i,
+            place[0], place[1], place[2], distance_of_skin(sim, place));
+    }
+}
+
 static void print_summary(struct run *run)
 {
     struct sim *sim = run->sim;
@@ -228,6 +257,8 @@ enum status run(const struct options *options, struct sim *sim, struct estimate 
         status = save_pieces(sim, options->pieces, err);
     if (!status)
         print_summary(&run);
+    if (!status && run.first_break < 0)
+        note_needles(sim);
     free(run.past.rows);
     return status;
 }

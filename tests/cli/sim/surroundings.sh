@@ -6,6 +6,11 @@ printf 'balloons = ( { mesh = "sphere.ply"; } );\nground = { height = 10.0; };\n
 refused 1 'ground.cfg:2: balloons\[0\] begins inside the ground' balloon-sim ground.cfg
 printf 'balloons = ( { mesh = "sphere.ply"; }, { mesh = "sphere.ply"; position = [9.0, 0.0, 0.0]; } );\ncontact = { };\n' >cross.cfg
 refused 1 'cross.cfg:2: contact: the skins of balloons\[0\] and balloons\[1\] cross' balloon-sim cross.cfg
+sed 2d cross.cfg >apart.cfg
+expect 0 balloon-sim apart.cfg --check
+stderr_has 'balloons\[0\] and balloons\[1\] begin in one another.s room, and pass through each other: .* contact = \{ \};$'
+expect 0 balloon-sim apart.cfg --check --set 'balloons[1].position=[0,200,0]'
+[ ! -s .stderr ] || fail "balloons apart are said to overlap"
 printf 'balloons = ( { mesh = "sphere.ply"; } );\nobstacle = ( );\n' >name.cfg
 refused 1 'name.cfg:2: unknown key `obstacle` .did you mean `obstacles`' balloon-sim name.cfg
 expect 0 balloon-sim pressed.cfg --explain
@@ -21,3 +26,13 @@ cmp -s one three || fail "another hash with three threads"
 printf 'time = { end = 0.1; };\nballoons = ( { mesh = "sphere.ply"; position = [0.0, 100.0, 0.0]; membrane = { thickness = 0.45; }; fracture = { }; } );\n' >high.cfg
 printf 'ground = { height = 20; };\nobstacles = ( { } );\n' >>high.cfg
 expect 0 balloon-sim -q high.cfg --hash
+
+# A needle that never came to the skin is told of: that nothing broke is no riddle then.
+printf 'time = { end = 0.1; };\nballoons = ( { mesh = "sphere.ply"; pressure = 0; } );\n' >needle.cfg
+printf 'needles = ( { from = [0, 0, 100]; velocity = [0, 0, -50]; }, { at = 3; from = [0, 0, 100]; } );\n' >>needle.cfg
+expect 0 balloon-sim needle.cfg --hash
+stdout_has 'nothing broke$'
+stderr_has 'needles\[0\] met no skin: at the end it is at .0, 0, 95., [45][0-9.]* from the nearest$'
+stderr_has 'needles\[1\] comes at 3 s only$'
+expect 0 balloon-sim -q needle.cfg --hash
+[ ! -s .stderr ] || fail "--quiet says something"
