@@ -5,7 +5,6 @@
 #include "render/window.h"
 
 #include <GL/freeglut.h>
-#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -186,15 +185,14 @@ static void register_events(void)
     glutCloseFunc(on_close);
 }
 
-/* In its proportions, no larger than the screen, where its size is known. */
+/* No larger than the screen, where its size is known. */
 static void fit_screen(struct window *window)
 {
-    const double width = glutGet(GLUT_SCREEN_WIDTH), height = glutGet(GLUT_SCREEN_HEIGHT);
-    const double scale = fmin(1, fmin(width / window->width, height / window->height));
-    if (!(scale > 0))
-        return;
-    window->width = (int)fmax(1, floor(scale * window->width));
-    window->height = (int)fmax(1, floor(scale * window->height));
+    const int width = glutGet(GLUT_SCREEN_WIDTH), height = glutGet(GLUT_SCREEN_HEIGHT);
+    if (width > 0 && width < window->width)
+        window->width = width;
+    if (height > 0 && height < window->height)
+        window->height = height;
 }
 
 static enum status open_glut(struct window *window, const char *title, struct error *err)

@@ -148,6 +148,7 @@ void app_drag_slider(struct app *app, int x);
 
 struct panel_box app_slider(const struct app *app, enum live_dial dial);
 struct panel_box app_time_slider(const struct app *app);
+bool app_has_plot(const struct app *app);
 struct panel_box app_plot(const struct app *app);
 struct panel_box app_legend(const struct app *app);
 

@@ -12,7 +12,7 @@ const char app_help[] = "left       prick, drag: pull     middle, alt+left  turn
                         "left right  a frame back, on     page up, down  a second\n"
                         "r  from the start\n"
                         "\n"
-                        "home f  see all   1 3 7  front, right, top (ctrl: the other side)\n"
+                        "home f  see all   1 3 7  front, right, top; ctrl: opposite\n"
                         "v  stereo         w  wires       c  colours by stretch\n"
                         "s  latex or the paper's look     o  order of layers\n"
                         "tab  sliders and plot\n"

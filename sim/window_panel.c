@@ -49,13 +49,26 @@ struct panel_box app_time_slider(const struct app *app)
     return (struct panel_box){left, app_eye(app).height - MARGIN - ROW, width > 1 ? width : 1, TRACK_HEIGHT};
 }
 
+/* Whether the plot has room beside the sliders. */
+static bool is_wide(const struct panel_box *eye)
+{
+    return eye->width >= 4 * MARGIN + NAME_WIDTH + TRACK_WIDTH + PLOT_WIDTH;
+}
+
+/* Where it would cover the balloons it is left out. */
+bool app_has_plot(const struct app *app)
+{
+    enum { HIGH = 600 };
+    const struct panel_box eye = app_eye(app);
+    return is_wide(&eye) || eye.height >= HIGH;
+}
+
 /* Beside the sliders, or above them where an eye's picture is too narrow. */
 struct panel_box app_plot(const struct app *app)
 {
     const struct panel_box eye = app_eye(app);
     const int left = eye.width - MARGIN - PLOT_WIDTH, bottom = eye.height - 2 * MARGIN - 2 * ROW;
-    const bool beside = left >= 3 * MARGIN + NAME_WIDTH + TRACK_WIDTH;
-    return (struct panel_box){left, bottom - PLOT_HEIGHT - (beside ? 0 : LIVE_DIALS * ROW), PLOT_WIDTH,
+    return (struct panel_box){left, bottom - PLOT_HEIGHT - (is_wide(&eye) ? 0 : LIVE_DIALS * ROW), PLOT_WIDTH,
                               PLOT_HEIGHT};
 }
 
@@ -267,7 +280,8 @@ bool app_make_boxes(struct app *app)
         return false;
     if (app->panel) {
         add_sliders(app);
-        add_plot(app);
+        if (app_has_plot(app))
+            add_plot(app);
     }
     if (app->stretch_colours)
         add_legend(app);

@@ -168,7 +168,8 @@ size_t app_texts(struct app *app, struct render_text texts[WINDOW_TEXTS_MAX])
     }
     if (app->panel) {
         add_sliders(app, &page);
-        add_plot(app, &page);
+        if (app_has_plot(app))
+            add_plot(app, &page);
     }
     if (app->stretch_colours)
         add_legend(app, &page);
