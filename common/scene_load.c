@@ -366,7 +366,8 @@ enum status scene_set(struct scene *scene, const char *assignment, struct error 
     if (!equals)
         return error_set(err, STATUS_INPUT, "--set: `%s` has no value; write KEY=VALUE", assignment);
     if (scene_find_cut_number(equals + 1, &slip))
-        return error_set(err, STATUS_INPUT, "--set: %s", slip.text);
+        return error_set(err, STATUS_INPUT, "--set: %.*s: %s", (int)(equals - assignment), assignment,
+                         slip.text);
     char *path = strndup(assignment, (size_t)(equals - assignment));
     if (!path)
         return error_no_memory(err, "--set");
