@@ -62,7 +62,9 @@ int main(void)
         {"folding, c.", "contact.thickness=0.15", "balloons[0].pressure=-1", 25, 8},
     };
     struct mesh mesh = {0};
+    struct error err = {0};
     shape_icosphere(5, &mesh);
+    bench_check(mesh_order(&mesh, &err), &err); /* as sim_load_meshes() does */
     printf("scene       threads   until       a step springs pairs near   state\n");
     for (unsigned workers = 1; workers <= 2; workers++) {
         double springs = 0; /* a step of them */
