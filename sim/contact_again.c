@@ -3,12 +3,16 @@
 #include "sim/contact_finder.h"
 #include "sim/contact_links.h"
 
-/* Pairs at that distance are never looked at again. */
+/* Pairs at that distance are never looked at again. Those of several such points are left to one
+ * worker. */
 static void forget_pairs(struct contact *c, uint32_t point)
 {
     struct contact_links links = contact_links_of(c, point);
     for (uint32_t at; (at = contact_links_next(&links)) != UINT32_MAX;) {
-        c->pairs[at / 4].distance = INFINITY;
+        struct contact_pair *pair = &c->pairs[at / 4];
+        if (!contact_is_first(c->marked, pair->point, at % 4))
+            continue;
+        pair->distance = INFINITY;
         c->awake[at / 4] = 0;
     }
 }
@@ -108,6 +112,7 @@ static void find_vicinity(void *context, size_t index, unsigned worker)
     r.taken = &f->contact->taken[worker];
     r.point = p;
     r.count = c->star_end[p] - begin;
+    forget_pairs(f->contact, p);
     gather_vicinity(&r, c->star + begin);
     contact_tree_near(&c->tree, &r.all, take_near, &r);
 }
@@ -142,10 +147,8 @@ enum status contact_pairs_find_again(struct sim *sim, struct error *err)
     lines.points = c->again;
     c->tree.kernels->round(&lines, 0, c->again_count);
     contact_links_make(sim);
-    for (uint32_t i = 0; i < c->again_count; i++) {
-        forget_pairs(c, c->again[i]);
+    for (uint32_t i = 0; i < c->again_count; i++)
         c->marked[c->again[i]] = 1;
-    }
     enum status status = STATUS_OK;
     const uint32_t around = list_around(sim, c);
     if (around != UINT32_MAX &&

@@ -89,6 +89,14 @@ static inline void contact_box_join(struct contact_box *box, const struct contac
     }
 }
 
+/* Whether joining the other would change nothing. */
+static inline bool contact_box_has(const struct contact_box *box, const struct contact_box *other)
+{
+    const struct contact_extent *x = box->at, *y = other->at;
+    return !box_any_negative((y[0].low > x[0].low) | (y[0].high > x[0].high) | (y[1].low > x[1].low) |
+                             (y[1].high > x[1].high));
+}
+
 /* Of an edge, and of a triangle, from the boxes of all points. */
 static inline struct contact_box contact_box_edge(const struct contact_box *point, const uint32_t p[2])
 {

@@ -131,11 +131,13 @@ static bool open_patch(struct contact_tree *tree, uint32_t node)
     return true;
 }
 
-/* All that a triangle is in, up to the root. */
+/* All that a triangle is in, up to the root or to what has room for it already: so has all above. */
 static bool widen(struct contact_tree *tree, uint32_t t, const struct contact_box *box, uint32_t sides)
 {
     for (uint32_t node = tree->leaf[t];; node = tree->nodes[node].parent) {
         struct contact_node *n = &tree->nodes[node];
+        if (!(n->sides & ~sides) && contact_box_has(&n->box, box))
+            return true;
         contact_box_join(&n->box, box);
         if (n->connected && n->sides && !(n->sides & sides) && !open_patch(tree, node))
             return false;

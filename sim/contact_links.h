@@ -37,4 +37,12 @@ static inline uint32_t contact_links_next(struct contact_links *links)
     return found;
 }
 
+/* Whether no point of a pair before the place is flagged: so each pair of flagged points is taken once.
+ * Without branches. */
+static inline bool contact_is_first(const unsigned char *flag, const uint32_t p[4], uint32_t place)
+{
+    const int before = flag[p[0]] | flag[p[1]] << 1 | flag[p[2]] << 2;
+    return (before & ((1 << place) - 1)) == 0;
+}
+
 #endif

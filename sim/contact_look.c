@@ -136,15 +136,6 @@ static void look_at_some(void *context, size_t index, unsigned worker)
     end_look(&sieve);
 }
 
-/* Whether no point of the pair before the place has moved: each pair is looked at by the first that
- * has. Without branches. */
-static inline bool is_first(const struct contact *c, const uint32_t *p, uint32_t place)
-{
-    const unsigned char *stirred = c->stirred;
-    const int before = stirred[p[0]] | stirred[p[1]] << 1 | stirred[p[2]] << 2;
-    return (before & ((1 << place) - 1)) == 0;
-}
-
 static void take_links_in(struct sieve *sieve, uint32_t *links, uint32_t count)
 {
     const struct contact *c = sieve->look->sim->contact;
@@ -152,7 +143,7 @@ static void take_links_in(struct sieve *sieve, uint32_t *links, uint32_t count)
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t pair = links[i] / 4, place = links[i] % 4;
         links[kept] = pair;
-        kept += is_first(c, c->pairs[pair].point, place);
+        kept += contact_is_first(c->stirred, c->pairs[pair].point, place);
     }
     for (uint32_t i = kept; i % 8 != 0; i++)
         links[i] = links[kept - 1];

@@ -6,6 +6,8 @@
 #include "sim/contact_kernels.h"
 #include "sim/lanes8.h"
 
+#include <string.h>
+
 /* How much further the points of each pair would have to be off before it could touch; 0 and less: it may. */
 static inline lanes8 sift_spare(const struct contact_sieve *s, const lanes8 pairs[8])
 {
@@ -22,11 +24,13 @@ static inline lanes8 sift_spare(const struct contact_sieve *s, const lanes8 pair
     return s->growth * apart - s->gap - first - second;
 }
 
-/* What it is compared with, as bytes of 0 and 1. */
+/* As bytes of 0 and 1. Most are so already: what is not written stays in the caches of all who read it. */
 static inline void sift_note(lanes8_mask true_ones, unsigned char *bytes)
 {
-    typedef unsigned char eight_bytes __attribute__((vector_size(8), aligned(1), may_alias));
-    *(eight_bytes *)bytes = (eight_bytes) __builtin_convertvector(true_ones & 1, eight_bytes);
+    typedef unsigned char eight_bytes __attribute__((vector_size(8)));
+    const eight_bytes now = (eight_bytes) __builtin_convertvector(true_ones & 1, eight_bytes);
+    if (memcmp(bytes, &now, sizeof now) != 0)
+        memcpy(bytes, &now, sizeof now);
 }
 
 static uint32_t sift(const struct contact_sieve *sieve, const struct contact_pair *pairs,
