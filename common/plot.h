@@ -41,7 +41,7 @@ struct plot_series {
     const char *const *label; /* [count] beside each point, or below each bar; NULL: none */
     size_t count;
     int colour, mark;  /* 0: by its place among the series */
-    bool labels_below; /* on the left of their points, where those of another series would cover them */
+    bool labels_below; /* all but the first, on the left: where labels would cover one another */
 };
 
 struct plot_panel {

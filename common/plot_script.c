@@ -132,6 +132,12 @@ static void put_axes(FILE *script, const struct plot_panel *panel)
           script);
 }
 
+static void put_labels(FILE *script, size_t index, const char *which, const char *place, const char *colour)
+{
+    fprintf(script, ", $series%zu using 1:2:3%s with labels %s font ',9' noenhanced tc rgb '%s' notitle",
+            index, which, place, colour);
+}
+
 static void put_series(FILE *script, const struct plot_panel *panel, size_t index)
 {
     const struct plot_series *s = &panel->series[index];
@@ -156,9 +162,11 @@ static void put_series(FILE *script, const struct plot_panel *panel, size_t inde
     fputs("title ", script);
     put_text(script, s->name);
     fputs(s->name ? " noenhanced" : "", script);
-    if (s->label && s->style != PLOT_BARS)
-        fprintf(script, ", $series%zu using 1:2:3 with labels %s font ',9' noenhanced tc rgb '%s' notitle",
-                index, s->labels_below ? "right offset -0.8,-0.5" : "left offset 0.8,0.5", colour);
+    if (!s->label || s->style == PLOT_BARS)
+        return;
+    put_labels(script, index, s->labels_below ? " every ::::0" : "", "left offset 0.8,0.5", colour);
+    if (s->labels_below)
+        put_labels(script, index, " every ::1", "right offset -0.8,-0.5", colour);
 }
 
 static void put_panel(FILE *script, const struct plot_panel *panel)

@@ -105,6 +105,8 @@ static void print_burst(const struct accuracy_table *table, FILE *stream)
             "# burst: means over members that differ by 1e-9 radii at the start; its time is when one edge in a hundred "
             "had let go, pieces are counted at %.4g s\n",
             table->burst_end);
+    else
+        fprintf(stream, "# no burst is compared: fewer than one edge in a hundred let go in the first run\n");
 }
 
 static void print_auto(const struct accuracy_table *table, FILE *stream)

@@ -137,7 +137,8 @@ static void add_pictures(struct pictures *p, const struct price_pictures *pictur
                                                          .y = p->seconds + i,
                                                          .label = p->label + i,
                                                          .count = (size_t)pictures->samples,
-                                                         .labels_below = row->order == SCENE_ORDER_SORT};
+                                                         .labels_below = row->order == SCENE_ORDER_NONE ||
+                                                                         row->order == SCENE_ORDER_SORT};
     }
 }
 
