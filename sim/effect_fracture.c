@@ -105,9 +105,9 @@ static void make_patches(const struct sim_balloon *b, uint32_t *queue)
     }
 }
 
-/* Of shear waves at rest: sqrt(mu/rho), or that of a lattice of springs: its shear modulus is sqrt(3)/4
- * k and its mass by area
- * 2 m/(sqrt 3 r^2) (Seung & Nelson, Phys. Rev. A 38 (1988) 1005), so that c = r sqrt(3 k/(8 m)). */
+/* Of shear waves at rest: sqrt(mu/rho), or that of a lattice of springs: its shear modulus is sqrt(3)/4 k and
+ * its mass by area 2 m/(sqrt 3 r^2) (Seung & Nelson, Phys. Rev. A 38 (1988) 1005), so that c = r sqrt(3 k/(8
+ * m)). */
 static double wave_speed(const struct sim *sim, const struct sim_balloon *b)
 {
     double stiffness = 0, mass = 0;

@@ -50,9 +50,8 @@ size_t guard_blocks(struct sim *sim, struct sim_block *blocks)
     return 2;
 }
 
-/* The kinetic energy of a block of points, or no number when one of their places or speeds is none: 0
- * times that is NaN, and
- * 0 for any other. */
+/* The kinetic energy of a block of points, or no number when one of their places or speeds is none: 0 times
+ * that is NaN, and 0 for any other. */
 static double moving_energy(const struct sim *sim, uint32_t begin, uint32_t end, void *context)
 {
     (void)context;

@@ -1,6 +1,6 @@
 /*
- * From an octree to a balloon's mesh (paper 3.4): Gaussians are laid over the sculpture and the surface
- * where their sum passes a threshold is followed from cell to cell of marching cubes.
+ * From an octree to a balloon's mesh (paper 3.4): Gaussians are laid over the sculpture and the surface where
+ * their sum passes a threshold is followed from cell to cell of marching cubes.
  *
  *     struct surface_options options = surface_defaults();
  *     options.triangles = 3000;
@@ -13,10 +13,9 @@
  *
  * What the mesh is: closed, wound counter-clockwise seen from outside, every edge in exactly two triangles,
  * the triangles of each point in one ring; every component that the grid of cubes can see is there (see
- * surface_seeds). Points lie on the surface, |f - T| < 1e-9 (stats.worst_residual says how near), normals
- * are unit vectors along
- * -gradient. Points and triangles are ordered by their place in space (Morton order of bricks of 8 x 8 x 8
- * cubes), so the result is the same to the byte however its parts were found.
+ * surface_seeds). Points lie on the surface, |f - T| < 1e-9 (stats.worst_residual says how near), normals are
+ * unit vectors along -gradient. Points and triangles are ordered by their place in space (Morton order of
+ * bricks of 8 x 8 x 8 cubes), so the result is the same to the byte however its parts were found.
  */
 #ifndef SURFACE_SURFACE_H
 #define SURFACE_SURFACE_H

@@ -111,9 +111,8 @@ static void the_balloon_expands_visibly_before_it_bursts(void **state)
     assert_in_range(story.breaking, 20, 60);
 }
 
-/* "usually produced a complete explosion animation in approximately 400 frames": seen, 95 % of the
- * breaking by frame 251,
- * 80 pieces, the largest 4 % of the skin. */
+/* "usually produced a complete explosion animation in approximately 400 frames": seen, 95 % of the breaking
+ * by frame 251, 80 pieces, the largest 4 % of the skin. */
 static void the_burst_is_complete_within_400_frames(void **state)
 {
     (void)state;

@@ -61,9 +61,8 @@ static void spring_forces_are_the_slope_of_their_energy(void **state)
     close_balloon(&b);
 }
 
-/* Forces between two points are equal and opposite, and along the line between them. The sums are
- * over 126 forces of about
- * 100 at distances of about 45: rounding stays below 1e-9. */
+/* Forces between two points are equal and opposite, and along the line between them. The sums are over 126
+ * forces of about 100 at distances of about 45: rounding stays below 1e-9. */
 static void springs_and_dampers_keep_momentum_and_angular_momentum(void **state)
 {
     (void)state;
