@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stddef.h>
@@ -71,6 +72,10 @@ WRAP(FAULT_MEMORY, char *, strdup, (const char *text), (text), NULL)
 WRAP(FAULT_MEMORY, char *, strndup, (const char *text, size_t size), (text, size), NULL)
 WRAP(FAULT_MEMORY, FILE *, open_memstream, (char **text, size_t *size), (text, size), NULL)
 
+WRAP(FAULT_STARTS, int, pthread_create,
+     (pthread_t * thread, const pthread_attr_t *attributes, void *(*function)(void *), void *argument),
+     (thread, attributes, function, argument), EAGAIN)
+
 WRAP(FAULT_FILES, FILE *, fopen64, (const char *path, const char *mode), (path, mode), NULL)
 WRAP(FAULT_FILES, FILE *, fdopen, (int file, const char *mode), (file, mode), NULL)
 WRAP(FAULT_FILES, int, mkostemp64, (char *path, int flags), (path, flags), -1)
@@ -121,9 +126,18 @@ static int flush_to_full(FILE *stream)
     return result;
 }
 
+/* A stream in memory has no file: it fails for want of memory. */
+static unsigned kind_of(FILE *stream)
+{
+    return fileno(stream) < 0 ? FAULT_MEMORY : FAULT_FILES;
+}
+
 int __wrap_fflush(FILE *stream)
 {
-    return fails(FAULT_FILES, "fflush") ? flush_to_full(stream) : __real_fflush(stream);
+    const unsigned kind = kind_of(stream);
+    if (!fails(kind, "fflush"))
+        return __real_fflush(stream);
+    return kind == FAULT_MEMORY ? EOF : flush_to_full(stream);
 }
 
 size_t __real_fwrite(const void *items, size_t size, size_t count, FILE *stream);
@@ -131,7 +145,7 @@ size_t __wrap_fwrite(const void *items, size_t size, size_t count, FILE *stream)
 
 size_t __wrap_fwrite(const void *items, size_t size, size_t count, FILE *stream)
 {
-    const bool failing = fileno(stream) >= 0 && fails(FAULT_FILES, "fwrite"); /* not one in memory */
+    const bool failing = kind_of(stream) == FAULT_FILES && fails(FAULT_FILES, "fwrite");
     const size_t wrote = __real_fwrite(items, size, count, stream);
     return failing && flush_to_full(stream) ? 0 : wrote;
 }
@@ -141,9 +155,10 @@ int __wrap_fclose(FILE *stream);
 
 int __wrap_fclose(FILE *stream)
 {
-    const bool failing = fileno(stream) >= 0 && fails(FAULT_FILES, "fclose");
+    const unsigned kind = kind_of(stream);
+    const bool failing = fails(kind, "fclose");
     const int result = __real_fclose(stream);
     if (failing)
-        errno = EIO;
+        errno = kind == FAULT_MEMORY ? ENOMEM : EIO;
     return failing ? EOF : result;
 }

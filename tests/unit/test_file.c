@@ -3,7 +3,10 @@
 #include "common/file.h"
 
 #include <dirent.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 static char folder[] = "/tmp/balloon-file-XXXXXX";
@@ -101,6 +104,25 @@ static void a_full_disk_is_reported(void **state)
     assert_refused(file_out_commit(out, &err), STATUS_FILE, "/dev/full: cannot write: No space left", &err);
 }
 
+/* Longer than any first guess of its length, which a pipe does not tell. */
+static void a_pipe_is_read_to_its_end(void **state)
+{
+    (void)state;
+    enum { SIZE = 300000 };
+    char *text = calloc(1, SIZE + 1);
+    memset(text, 'x', SIZE);
+    text[SIZE - 1] = 'y';
+    assert_int_equal(mkfifo("pipe", 0600), 0);
+    const pid_t writer = fork();
+    if (writer == 0) {
+        FILE *stream = fopen("pipe", "w");
+        _exit(!stream || fputs(text, stream) < 0 || fclose(stream));
+    }
+    assert_contents("pipe", text);
+    assert_int_equal(waitpid(writer, NULL, 0), writer);
+    free(text);
+}
+
 static void missing_folders_and_folders_are_refused_by_name(void **state)
 {
     (void)state;
@@ -113,6 +135,20 @@ static void missing_folders_and_folders_are_refused_by_name(void **state)
     assert_refused(file_read(".", &bytes, &err), STATUS_FILE, ".: cannot read", &err);
 }
 
+/* It is no regular file, so it is written in place, and cannot be. */
+static void a_socket_is_refused_and_stays(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct file_out *out;
+    struct sockaddr_un name = {.sun_family = AF_UNIX, .sun_path = "socket"};
+    const int bound = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    assert_int_equal(bind(bound, (const struct sockaddr *)&name, sizeof name), 0);
+    assert_refused(file_out_open("socket", &out, &err), STATUS_FILE, "socket: cannot open: ", &err);
+    assert_int_equal(access("socket", F_OK), 0);
+    close(bound);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -120,6 +156,8 @@ int main(void)
         cmocka_unit_test(an_abandoned_file_leaves_the_old_one_and_nothing_else),
         cmocka_unit_test(a_link_is_followed_not_replaced),
         cmocka_unit_test(a_full_disk_is_reported),
+        cmocka_unit_test(a_pipe_is_read_to_its_end),
+        cmocka_unit_test(a_socket_is_refused_and_stays),
         cmocka_unit_test(missing_folders_and_folders_are_refused_by_name),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);

@@ -5,6 +5,7 @@
 #include "common/plot_script.h"
 #include "folder.h"
 
+#include <signal.h>
 #include <sys/stat.h>
 
 static const double x[] = {0.1, 0.01, 0.001, (double)NAN}, y[] = {1, 4, -2, 16};
@@ -106,24 +107,55 @@ static void no_key_and_no_label_covers_what_is_drawn(void **state)
     assert_true(script_has(&panel, below));
 }
 
+/* Saves by a script that stands in for gnuplot; NULL: without one. */
+static enum status save_by(const char *script, const char *path, struct error *err)
+{
+    char *usual = strdup(getenv("PATH"));
+    if (script) {
+        write_text("gnuplot", script);
+        assert_int_equal(chmod("gnuplot", 0755), 0);
+    }
+    setenv("PATH", script ? test_folder : "/nowhere", 1);
+    const enum status status = save(PLOT_CURVE, path, err);
+    setenv("PATH", usual, 1);
+    free(usual);
+    return status;
+}
+
 static void without_gnuplot_the_message_says_how_to_get_it_and_the_old_file_stays(void **state)
 {
     (void)state;
     struct error err = {0};
-    char *path = strdup(getenv("PATH"));
     write_text("old.png", "old");
-    setenv("PATH", "/nowhere", 1);
-    assert_refused(save(PLOT_CURVE, "old.png", &err), STATUS_RESOURCE, "apt install gnuplot", &err);
-    write_text("gnuplot", "#!/bin/sh\necho '     ^' >&2\necho 'line 1: bad weather' >&2\nexit 3\n");
-    assert_int_equal(chmod("gnuplot", 0755), 0);
-    setenv("PATH", test_folder, 1);
-    assert_refused(save(PLOT_CURVE, "old.png", &err), STATUS_RESOURCE, "gnuplot failed: line 1: bad weather",
-                   &err);
-    setenv("PATH", path, 1);
-    free(path);
+    assert_refused(save_by(NULL, "old.png", &err), STATUS_RESOURCE, "apt install gnuplot", &err);
+    assert_refused(
+        save_by("#!/bin/sh\necho '     ^' >&2\necho 'line 1: bad weather' >&2\nexit 3\n", "old.png", &err),
+        STATUS_RESOURCE, "gnuplot failed: line 1: bad weather", &err);
+    assert_refused(save_by("#!/no/such/shell\n", "old.png", &err), STATUS_FILE,
+                   "old.png: cannot start gnuplot for: No such file", &err);
     struct bytes bytes = {0};
     assert_ok(file_read("old.png", &bytes, &err), &err);
     assert_int_equal(bytes.size, 3);
+    bytes_clear(&bytes);
+}
+
+static void note_signal(int number)
+{
+    (void)number;
+}
+
+/* As when the window's size changes, or a timer of the caller's own runs out. */
+static void a_signal_while_gnuplot_draws_is_no_failure(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct bytes bytes = {0};
+    struct sigaction before, action = {.sa_handler = note_signal};
+    sigaction(SIGALRM, &action, &before);
+    assert_ok(save_by("#!/bin/sh\nkill -ALRM $PPID\n/bin/sleep 0.1\necho drawn\n", "a.svg", &err), &err);
+    sigaction(SIGALRM, &before, NULL);
+    assert_ok(file_read("a.svg", &bytes, &err), &err);
+    assert_string_equal((const char *)bytes.data, "drawn\n");
     bytes_clear(&bytes);
 }
 
@@ -141,6 +173,7 @@ int main(void)
         cmocka_unit_test(a_count_is_drawn_from_nothing_up_in_whole_steps),
         cmocka_unit_test(no_key_and_no_label_covers_what_is_drawn),
         cmocka_unit_test(without_gnuplot_the_message_says_how_to_get_it_and_the_old_file_stays),
+        cmocka_unit_test(a_signal_while_gnuplot_draws_is_no_failure),
         cmocka_unit_test(other_extensions_are_refused),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
