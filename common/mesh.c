@@ -5,13 +5,20 @@
 
 #include <stdlib.h>
 
+enum status mesh_check_size(size_t point_count, size_t triangle_count, struct error *err)
+{
+    if (point_count < MESH_NONE && triangle_count < MESH_NONE)
+        return STATUS_OK;
+    return error_set(err, STATUS_RANGE,
+                     "a mesh of %zu points and %zu triangles is too large; there can be %u of each",
+                     point_count, triangle_count, MESH_NONE - 1);
+}
+
 enum status mesh_init(struct mesh *mesh, size_t point_count, size_t triangle_count, bool normals,
                       struct error *err)
 {
-    if (point_count >= MESH_NONE || triangle_count >= MESH_NONE)
-        return error_set(err, STATUS_RANGE,
-                         "a mesh of %zu points and %zu triangles is too large; there can be %u of each",
-                         point_count, triangle_count, MESH_NONE - 1);
+    if (mesh_check_size(point_count, triangle_count, err))
+        return STATUS_RANGE;
     struct mesh made = {
         .point_count = (uint32_t)point_count,
         .triangle_count = (uint32_t)triangle_count,

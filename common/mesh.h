@@ -34,6 +34,9 @@ struct mesh {
     uint32_t (*triangle_edge)[3]; /* [triangle_count] edge k joins corners k and k + 1; NULL until then */
 };
 
+/* Refuses (STATUS_RANGE) more than 2^32 - 2 points or triangles. */
+enum status mesh_check_size(size_t point_count, size_t triangle_count, struct error *err);
+
 /* Allocates room for that many points and triangles, with normals or without; counts are set, values are
  * not. *mesh is overwritten, not cleared, and on failure it is as it was. Errors: STATUS_NO_MEMORY,
  * STATUS_RANGE past 2^32 - 2 of either. */

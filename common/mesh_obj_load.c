@@ -22,8 +22,6 @@ static enum status read_point(struct obj *obj, struct error *err)
 {
     struct word word;
     char shown[WORD_SHOWN_SIZE];
-    if (obj->points.count >= MESH_NONE - 1)
-        return error_set(err, STATUS_RANGE, "%s: more than %u points", obj->text.path, MESH_NONE - 1);
     if (!ARRAY_RESERVE(&obj->points, 1))
         return error_no_memory(err, obj->text.path);
     double *point = obj->points.items[obj->points.count];
@@ -106,6 +104,8 @@ enum status mesh_read_obj(const struct bytes *bytes, const char *path, struct me
     struct mesh made = {0};
     obj.text.backslash_joins = true;
     enum status status = read_lines(&obj, err);
+    if (!status)
+        status = mesh_check_size(obj.points.count, obj.triangles.count, err);
     if (!status)
         status = mesh_init(&made, 0, 0, false, err);
     if (!status && obj.points.count > 0) {

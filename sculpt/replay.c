@@ -41,8 +41,8 @@ static enum status find_steps(const struct chips *chips, struct steps *steps, st
 {
     const bool each = !has_steps(chips);
     size_t first = 0;
-    for (size_t i = 0; i < chips->count; i++) {
-        enum chip_kind kind = chips->items[i].kind;
+    for (size_t i = 0; i <= chips->count; i++) { /* the last step ends where the script does */
+        enum chip_kind kind = i < chips->count ? chips->items[i].kind : CHIP_STEP;
         bool tool = kind < CHIP_STEP;
         if (tool && !each)
             continue;
@@ -54,8 +54,6 @@ static enum status find_steps(const struct chips *chips, struct steps *steps, st
         if (kind == CHIP_REDO && steps->done < steps->count)
             steps->done++;
     }
-    if (!add_step(steps, first, chips->count))
-        return error_no_memory(err, "the steps of the script");
     return STATUS_OK;
 }
 

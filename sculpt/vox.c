@@ -9,8 +9,19 @@
 
 struct bounds {
     int64_t low[3], high[3];
-    uint64_t voxels; /* that are not empty */
+    bool any; /* voxel that is not empty */
 };
+
+static enum status check_size(const struct vox_scene *scene, struct error *err)
+{
+    uint64_t voxels = 0;
+    for (size_t p = 0; p < scene->placements.count && voxels <= VOXELS_MAX; p++)
+        voxels += scene->models.items[scene->placements.items[p].model].count;
+    if (voxels <= VOXELS_MAX)
+        return STATUS_OK;
+    return error_set(err, STATUS_RANGE, "the scene has more than %llu voxels",
+                     (unsigned long long)VOXELS_MAX);
+}
 
 /* Calls for every voxel that is not empty, as it lies in the scene, turned upright: z up becomes y up. */
 typedef enum status voxel_visitor(void *context, const int64_t place[3], unsigned colour, struct error *err);
@@ -38,18 +49,15 @@ static enum status visit_voxels(const struct vox_scene *scene, voxel_visitor *vi
 
 static enum status widen(void *context, const int64_t place[3], unsigned colour, struct error *err)
 {
-    (void)colour;
+    (void)colour, (void)err;
     struct bounds *bounds = context;
-    if (bounds->voxels == VOXELS_MAX)
-        return error_set(err, STATUS_RANGE, "the scene has more than %llu voxels",
-                         (unsigned long long)VOXELS_MAX);
     for (int k = 0; k < 3; k++) {
-        if (bounds->voxels == 0 || place[k] < bounds->low[k])
+        if (!bounds->any || place[k] < bounds->low[k])
             bounds->low[k] = place[k];
-        if (bounds->voxels == 0 || place[k] > bounds->high[k])
+        if (!bounds->any || place[k] > bounds->high[k])
             bounds->high[k] = place[k];
     }
-    bounds->voxels++;
+    bounds->any = true;
     return STATUS_OK;
 }
 
@@ -94,8 +102,10 @@ static enum status build(struct vox_scene *scene, const struct bytes *file, stru
     if (!status)
         status = vox_place_models(scene, err);
     if (!status)
+        status = check_size(scene, err);
+    if (!status)
         status = visit_voxels(scene, widen, &bounds, err);
-    if (!status && bounds.voxels == 0)
+    if (!status && !bounds.any)
         status = error_set(err, STATUS_INPUT, "the model is empty: no voxel has a colour, or all are hidden");
     if (!status)
         status = fit(&bounds, &target, err);

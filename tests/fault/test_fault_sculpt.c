@@ -1,5 +1,6 @@
 /* Scripts, voxel models and meshes where memory ends and files fail. */
 #include "../unit/trees.h"
+#include "../unit/vox_models.h"
 #include "common/mesh.h"
 #include "faulty.h"
 #include "sculpt/history.h"
@@ -95,16 +96,16 @@ static void meshes_are_saved_whole_or_not_at_all(void **state)
 typedef enum status load_tree(const char *path, struct octree *tree, struct error *err);
 
 /* Each call of a reader fails in turn: the tree is the file's, or as it was. */
-static void check_load(load_tree *load, const char *path)
+static void check_load(load_tree *load_it, const char *path)
 {
     struct error err = {0};
     struct octree good = {0};
-    assert_ok(load(path, &good, &err), &err);
+    assert_ok(load_it(path, &good, &err), &err);
     for (int i = 0; i < 2; i++)
         for (struct fault fault = {.kinds = fault_kinds[i]}; fault_next(&fault);) {
             struct octree tree = new_tree(2, 7);
             fault_begin(&fault);
-            enum status status = load(path, &tree, &err);
+            enum status status = load_it(path, &tree, &err);
             fault_end(&fault);
             assert_true(fault.failed || !status);
             assert_says(status, &err, fault.kinds);
@@ -123,6 +124,15 @@ static void a_model_that_cannot_be_loaded_leaves_the_old_tree(void **state)
     assert_ok(vox_save(&tree, "a.vox", &err), &err);
     check_load(vox_load, "a.vox");
     octree_clear(&tree);
+    struct model scene = new_model();
+    add_size(&scene, 2, 2, 3);
+    add_voxels(&scene, letter, 5);
+    add_group(&scene, 0, (const uint32_t[]){1, 3}, 2);
+    add_shape(&scene, 1, 0);
+    add_transform(&scene, 3, 4, NULL, "10 0 0", false);
+    add_shape(&scene, 4, 0);
+    write_model(scene.data, scene.size);
+    check_load(vox_load, "a.vox");
 }
 
 static enum status load_mesh(const char *path, struct octree *tree, struct error *err)
@@ -145,6 +155,14 @@ static void a_mesh_that_cannot_be_voxelised_leaves_the_old_tree(void **state)
         check_load(load_mesh, names[i]);
     }
     mesh_clear(&mesh);
+    write_text(
+        "a.stl",
+        "solid a\nfacet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n"
+        "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 0 1 0 vertex 0 0 1 endloop endfacet\n"
+        "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 0 0 1 vertex 1 0 0 endloop endfacet\n"
+        "facet normal 0 0 1 outer loop vertex 1 0 0 vertex 0 0 1 vertex 0 1 0 endloop endfacet\n"
+        "endsolid a\n");
+    check_load(load_mesh, "a.stl");
 }
 
 int main(void)

@@ -76,6 +76,34 @@ static void a_billion_claimed_voxels_are_refused(void **state)
                     "chunk XYZI at byte 44: claims 1000000000 voxels but has room for 5");
 }
 
+/* A model of a third of a million voxels, in 400 places: refused before any is visited. */
+static void a_scene_of_too_many_voxels_is_refused(void **state)
+{
+    (void)state;
+    enum { PLACES = 400, VOXELS = (1 << 27) / PLACES + 1 };
+    static uint32_t shapes[PLACES];
+    struct model model = new_model();
+    add_size(&model, 2, 2, 3);
+    const size_t contents = begin_chunk(&model, "XYZI");
+    add_number(&model, VOXELS);
+    set_number(&model, contents - 8, 4 + 4 * VOXELS);
+    const size_t before = model.size;
+    for (uint32_t i = 0; i < PLACES; i++)
+        shapes[i] = i + 1;
+    add_group(&model, 0, shapes, PLACES);
+    for (uint32_t i = 0; i < PLACES; i++)
+        add_shape(&model, shapes[i], 0);
+    const size_t size = model.size + 4 * VOXELS;
+    set_number(&model, MAIN_CHILDREN, (uint32_t)(size - FIRST_CHUNK));
+    unsigned char *file = calloc(size, 1);
+    memcpy(file, model.data, before);
+    for (size_t i = 0; i < VOXELS; i++)
+        file[before + 4 * i + 3] = 1; /* colour, at the corner */
+    memcpy(file + before + 4 * VOXELS, model.data + before, model.size - before);
+    assert_rejected(file, size, "the scene has more than 134217728 voxels");
+    free(file);
+}
+
 static void sizes_out_of_range_are_refused(void **state)
 {
     (void)state;
@@ -203,6 +231,7 @@ int main(void)
         cmocka_unit_test(every_truncation_is_refused),
         cmocka_unit_test(chunks_that_are_too_short_are_refused),
         cmocka_unit_test(a_billion_claimed_voxels_are_refused),
+        cmocka_unit_test(a_scene_of_too_many_voxels_is_refused),
         cmocka_unit_test(sizes_out_of_range_are_refused),
         cmocka_unit_test(chunks_out_of_order_are_refused),
         cmocka_unit_test(foreign_files_and_versions_are_refused),
