@@ -91,16 +91,16 @@ static void what_was_appended_before_a_failure_is_recovered(void **state)
     remove_files();
 }
 
-/* A journal that is left is read, and gone on with, or says why not and stays. */
-static void a_journal_that_is_left_stays_until_it_can_be_read(void **state)
+/* A journal of so many appends that is left is read, and gone on with, or says why not and stays. */
+static void check_left(int appends)
 {
-    (void)state;
     struct error err = {0};
-    struct octree start = random_sculpture(DEPTH, 10, 3), wanted = carved(&start, LINES);
+    struct octree start = random_sculpture(DEPTH, 10, 3), wanted = carved(&start, appends);
     struct journal *journal = NULL;
-    int count;
     assert_ok(octree_save(&start, SCULPTURE, &err), &err);
-    assert_ok(write_journal(&start, &journal, &count, &err), &err);
+    assert_ok(journal_open(SCULPTURE, &start, &journal, &err), &err);
+    for (int i = 0; i < appends; i++)
+        assert_ok(journal_append(journal, lines[i], &err), &err);
     journal_close(journal, false);
     for (int i = 0; i < 4; i++)
         for (struct fault fault = {.kinds = fault_kinds[i & 1]}; fault_next(&fault);) {
@@ -117,7 +117,7 @@ static void a_journal_that_is_left_stays_until_it_can_be_read(void **state)
             if (i < 2)
                 assert_true(status ? tree.root == 7 && tree.depth == 2 : octree_equal(&tree, &wanted));
             journal_close(journal, false);
-            assert_recovers(&start, LINES);
+            assert_recovers(&start, appends);
             bytes_clear(&log);
             octree_clear(&tree);
         }
@@ -126,11 +126,55 @@ static void a_journal_that_is_left_stays_until_it_can_be_read(void **state)
     remove_files();
 }
 
+static void a_journal_that_is_left_stays_until_it_can_be_read(void **state)
+{
+    (void)state;
+    check_left(0);
+    check_left(LINES);
+}
+
+/* To another file system, where one is at hand: a copy, after a failure of which it is where it was. */
+static void a_journal_that_cannot_go_along_stays_where_it_is(void **state)
+{
+    (void)state;
+    char other[] = "/dev/shm/balloon-journal-XXXXXX", path[64], there[80];
+    struct error err = {0};
+    struct octree start = random_sculpture(DEPTH, 10, 3);
+    assert_non_null(mkdtemp(other));
+    snprintf(path, sizeof path, "%s/" SCULPTURE, other);
+    snprintf(there, sizeof there, "%s.journal", path);
+    for (int i = 0; i < 2; i++)
+        for (struct fault fault = {.kinds = fault_kinds[i]}; fault_next(&fault);) {
+            struct journal *journal = NULL;
+            assert_ok(octree_save(&start, SCULPTURE, &err), &err);
+            assert_ok(journal_open(SCULPTURE, &start, &journal, &err), &err);
+            assert_ok(journal_append(journal, lines[0], &err), &err);
+            fault_begin(&fault);
+            const enum status status = journal_move(journal, path, &err);
+            fault_end(&fault);
+            assert_true(fault.failed || !status);
+            assert_says(status, &err, fault.kinds);
+            assert_int_equal(access(there, F_OK), status ? -1 : 0);
+            assert_int_equal(access(SCULPTURE ".journal", F_OK), status ? 0 : -1);
+            assert_ok(journal_append(journal, lines[1], &err), &err);
+            if (status) {
+                journal_close(journal, false);
+                assert_recovers(&start, 2);
+            } else {
+                journal_close(journal, true);
+            }
+            remove_files();
+        }
+    assert_int_equal(rmdir(other), 0);
+    octree_clear(&start);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_was_appended_before_a_failure_is_recovered),
         cmocka_unit_test(a_journal_that_is_left_stays_until_it_can_be_read),
+        cmocka_unit_test(a_journal_that_cannot_go_along_stays_where_it_is),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

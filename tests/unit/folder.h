@@ -5,6 +5,8 @@
 #include "check.h"
 
 #include <dirent.h>
+#include <stdbool.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static char test_folder[] = "/tmp/balloon-test-XXXXXX";
@@ -23,6 +25,22 @@ static inline int leave_folder(void **state)
         unlink(entry->d_name);
     closedir(entries);
     return rmdir(test_folder);
+}
+
+/* Up to allow_writing() nothing is made in the folder nor removed from it: root becomes somebody else. False
+ * where that cannot be. */
+static inline bool deny_writing(void)
+{
+    assert_int_equal(chmod(test_folder, 0555), 0);
+    return geteuid() != 0 || !setresuid(65534, 65534, 0);
+}
+
+static inline void allow_writing(void)
+{
+    uid_t real, effective, saved;
+    assert_int_equal(getresuid(&real, &effective, &saved), 0);
+    assert_int_equal(setresuid(saved, saved, saved), 0);
+    assert_int_equal(chmod(test_folder, 0755), 0);
 }
 
 static inline void write_bytes(const char *path, const void *bytes, size_t size)

@@ -206,6 +206,51 @@ static void going_on_with_a_journal_changes_nothing_about_it(void **state)
     assert_recovers(THREE);
 }
 
+/* The linker sends the library's calls of flock() here (--wrap): what happens just before the next one. */
+static void (*before_lock)(void);
+
+int __real_flock(int file, int how);
+int __wrap_flock(int file, int how);
+
+int __wrap_flock(int file, int how)
+{
+    void (*happens)(void) = before_lock;
+    before_lock = NULL;
+    if (happens)
+        happens();
+    return __real_flock(file, how);
+}
+
+/* Its last owner removes it between our opening and our locking it: what is locked then has no name. */
+static void a_journal_that_goes_away_while_it_is_opened_is_begun_anew(void **state)
+{
+    (void)state;
+    leave_nothing();
+    struct journal *journal = begin();
+    append(journal, THREE);
+    journal_close(journal, false);
+    before_lock = leave_nothing;
+    journal = begin();
+    append(journal, ONE);
+    journal_close(journal, false);
+    assert_recovers(ONE);
+}
+
+static void a_journal_that_cannot_be_removed_is_named(void **state)
+{
+    (void)state;
+    leave_nothing();
+    struct error err = {0};
+    journal_close(begin(), false);
+    assert_int_equal(chmod(JOURNAL, 0644), 0);
+    if (deny_writing())
+        assert_refused(journal_remove("a.oct", &err), STATUS_FILE, "a.oct.journal: cannot remove: ", &err);
+    else
+        print_message("# skipped: root cannot become somebody who may not remove it\n");
+    allow_writing();
+    assert_int_equal(access(JOURNAL, F_OK), 0);
+}
+
 /* Neither a new name nor a link reaches there: journal and base are copied. */
 static void a_journal_goes_along_to_another_file_system(void **state)
 {
@@ -261,6 +306,8 @@ int main(void)
         cmocka_unit_test(a_journal_that_is_closed_for_good_leaves_no_file),
         cmocka_unit_test(a_journal_that_is_left_is_gone_on_with),
         cmocka_unit_test(going_on_with_a_journal_changes_nothing_about_it),
+        cmocka_unit_test(a_journal_that_goes_away_while_it_is_opened_is_begun_anew),
+        cmocka_unit_test(a_journal_that_cannot_be_removed_is_named),
         cmocka_unit_test(a_journal_goes_along_to_another_file_system),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);

@@ -220,6 +220,37 @@ static void chunks_that_are_not_known_are_kept(void **state)
     octree_clear(&tree);
 }
 
+static void work_that_is_not_wanted_is_forgotten(void **state)
+{
+    (void)state;
+    open_new();
+    click(0.3, 0.3);
+    kill_session();
+    assert_int_equal(session_open(&session, "new.oct", 5, false, &err), STATUS_OK);
+    assert_tree(&session.tree, "depth 5\nstep\n");
+    kill_session();
+    assert_ok(session_open(&session, "new.oct", 5, true, &err), &err);
+    assert_tree(&session.tree, "depth 5\nstep\n");
+    session_clear(&session);
+}
+
+/* Nobody knows whose it is, and it is all that there is of it. */
+static void a_name_with_a_journal_that_is_left_is_not_taken(void **state)
+{
+    (void)state;
+    struct octree tree = {0};
+    open_new();
+    click(0.3, 0.3);
+    kill_session();
+    make(FIRST, &tree);
+    assert_refused(session_begin(&session, "new.oct", &tree, &err), STATUS_FILE,
+                   "new.oct.journal holds work that was not saved; give another name", &err);
+    octree_clear(&tree);
+    assert_ok(session_open(&session, "new.oct", 5, true, &err), &err);
+    assert_tree(&session.tree, FIRST);
+    session_clear(&session);
+}
+
 static void what_has_no_file_yet_is_unsaved_work_that_survives_a_kill(void **state)
 {
     (void)state;
@@ -286,6 +317,8 @@ int main(void)
         cmocka_unit_test(a_name_that_another_program_carves_under_is_not_taken),
         cmocka_unit_test(without_a_journal_work_is_kept_from_the_first_save_on),
         cmocka_unit_test(chunks_that_are_not_known_are_kept),
+        cmocka_unit_test(work_that_is_not_wanted_is_forgotten),
+        cmocka_unit_test(a_name_with_a_journal_that_is_left_is_not_taken),
         cmocka_unit_test(what_has_no_file_yet_is_unsaved_work_that_survives_a_kill),
         cmocka_unit_test(steps_beyond_the_undo_memory_are_counted),
         cmocka_unit_test(a_cube_that_goes_as_a_whole_is_a_step),

@@ -12,6 +12,7 @@ END
 cat >second.chips <<'END'
 mirror x
 material 9
+coefficient 9 0.25
 fill sphere 0.3 0.5 0.5 0.1
 END
 expect 0 balloon-sculpt --script first.chips -o a.oct --info
@@ -22,6 +23,7 @@ cat >wanted.chips <<'END'
 depth 4
 material 2
 start full
+coefficient 9 0.25
 chip sphere 0.5 0.5 0.5 0.3
 mirror x
 material 9
