@@ -202,7 +202,7 @@ static void whole_numbers_that_would_be_cut_to_32_bits_are_refused(void **state)
               &err);
     assert_near(scene.time.end, 3e8, 0);
     assert_refused(scene_set(&scene, "balloons[0].radius=4294967297", &err), STATUS_INPUT,
-                   "--set: 4294967297: a whole number", &err);
+                   "4294967297: a whole number", &err);
     scene_clear(&scene);
 }
 
