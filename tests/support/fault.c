@@ -72,6 +72,19 @@ WRAP(FAULT_MEMORY, char *, strdup, (const char *text), (text), NULL)
 WRAP(FAULT_MEMORY, char *, strndup, (const char *text, size_t size), (text, size), NULL)
 WRAP(FAULT_MEMORY, FILE *, open_memstream, (char **text, size_t *size), (text, size), NULL)
 
+int __wrap_asprintf(char **text, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+int __wrap_asprintf(char **text, const char *format, ...)
+{
+    if (fails(FAULT_MEMORY, "asprintf"))
+        return -1;
+    va_list rest;
+    va_start(rest, format);
+    const int length = vasprintf(text, format, rest);
+    va_end(rest);
+    return length;
+}
+
 WRAP(FAULT_STARTS, int, pthread_create,
      (pthread_t * thread, const pthread_attr_t *attributes, void *(*function)(void *), void *argument),
      (thread, attributes, function, argument), EAGAIN)

@@ -15,10 +15,10 @@
  * A program that includes this is given the dependency `fault` (tests/support/meson.build), which leads the
  * calls made in the project's own code here; what the C library and others call among themselves is as ever.
  *
- * What fails: FAULT_MEMORY malloc, calloc, realloc, strdup, strndup, open_memstream, and fflush and fclose
- * of a stream in memory; FAULT_FILES opening (fopen, open, mkostemp, fdopen), writing (fwrite, fflush, write:
- * the device is full, the write done in part), fsync, fclose, rename, link, linkat, ftruncate; FAULT_STARTS
- * pthread_create.
+ * What fails: FAULT_MEMORY malloc, calloc, realloc, strdup, strndup, asprintf, open_memstream, and fflush and
+ * fclose of a stream in memory; FAULT_FILES opening (fopen, open, mkostemp, fdopen), writing (fwrite, fflush,
+ * write: the device is full, the write done in part), fsync, fclose, rename, link, linkat, ftruncate;
+ * FAULT_STARTS pthread_create.
  */
 #ifndef TESTS_SUPPORT_FAULT_H
 #define TESTS_SUPPORT_FAULT_H

@@ -17,13 +17,18 @@ static inline int enter_folder(void **state)
     return !mkdtemp(test_folder) || chdir(test_folder);
 }
 
-static inline int leave_folder(void **state)
+static inline void clear_folder(void)
 {
-    (void)state;
     DIR *entries = opendir(".");
     for (struct dirent *entry; (entry = readdir(entries));)
         unlink(entry->d_name);
     closedir(entries);
+}
+
+static inline int leave_folder(void **state)
+{
+    (void)state;
+    clear_folder();
     return rmdir(test_folder);
 }
 

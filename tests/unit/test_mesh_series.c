@@ -5,6 +5,8 @@
 #include "sim/motion_cache.h"
 #include "sim/skin_mesh.h"
 
+#include <fcntl.h>
+
 /* A burst of the paper's kind: some triangles are gone, some points carry nothing. */
 static void open_burst(struct balloon *b)
 {
@@ -195,6 +197,48 @@ static void what_cannot_be_written_is_said(void **state)
                    "no/such.pc2: cannot create", &err);
     assert_refused(mesh_save_values(&b.mesh, NULL, 0, "a.obj", &err), STATUS_USAGE,
                    "a.obj: no format for meshes with values; must be .ply or .vtp", &err);
+    if (deny_writing())
+        assert_refused(mesh_series_open(&b.sim, &(struct mesh_series_options){.folder = "."}, &series, &err),
+                       STATUS_FILE, ".: cannot write into: ", &err);
+    else
+        print_message("# skipped: root cannot become somebody who may not write\n");
+    allow_writing();
+    close_balloon(&b);
+}
+
+static void a_folder_that_goes_away_before_the_first_mesh_is_named(void **state)
+{
+    (void)state;
+    struct balloon b;
+    struct error err = {0};
+    struct mesh_series *series = NULL;
+    size_t removed;
+    open_balloon(&b, 1, SETTINGS("balloons[0].pressure=1"));
+    assert_ok(mesh_series_open(&b.sim, &(struct mesh_series_options){.folder = "gone"}, &series, &err), &err);
+    assert_int_equal(rmdir("gone"), 0);
+    assert_refused(mesh_series_add(series, &err), STATUS_FILE, "gone: cannot read: No such file", &err);
+    assert_ok(mesh_series_close(series, &removed, &err), &err);
+    close_balloon(&b);
+}
+
+/* Its head is written last, which needs a place to go back to; and what is behind it may not have fitted. */
+static void a_cache_of_motion_needs_a_file_with_room(void **state)
+{
+    (void)state;
+    struct balloon b;
+    struct error err = {0};
+    struct motion_cache *cache = NULL;
+    open_balloon(&b, 1, SETTINGS("balloons[0].pressure=1"));
+    assert_int_equal(mkfifo("pipe.pc2", 0600), 0);
+    const int reader = open("pipe.pc2", O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    assert_refused(motion_cache_open(&b.sim, "pipe.pc2", 0, &cache, &err), STATUS_FILE,
+                   "pipe.pc2: cannot go back in it", &err);
+    close(reader);
+    assert_int_equal(symlink("/dev/full", "full.pc2"), 0);
+    assert_ok(motion_cache_open(&b.sim, "full.pc2", 0, &cache, &err), &err);
+    assert_ok(motion_cache_add(cache, &err), &err);
+    assert_refused(motion_cache_close(cache, &err), STATUS_FILE, "full.pc2: cannot write: No space left",
+                   &err);
     close_balloon(&b);
 }
 
@@ -208,6 +252,8 @@ int main(void)
         cmocka_unit_test(a_run_that_goes_on_keeps_the_list_of_its_first_part),
         cmocka_unit_test(a_cache_holds_the_places_of_its_meshs_points),
         cmocka_unit_test(what_cannot_be_written_is_said),
+        cmocka_unit_test(a_folder_that_goes_away_before_the_first_mesh_is_named),
+        cmocka_unit_test(a_cache_of_motion_needs_a_file_with_room),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

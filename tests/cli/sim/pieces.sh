@@ -29,6 +29,13 @@ sums_agree
 awk -F'\t' 'FNR > 1 { mass[FILENAME] += $6 } END { a = mass["torn.tsv"]; b = mass["pieces.tsv"]; exit !((a / b - 1)^2 < 1e-14) }' \
     torn.tsv pieces.tsv || fail "mass was lost in the tear"
 
+# of two balloons: each piece tells whose it is
+cat >two.cfg <<'END'
+balloons = ( { mesh = "sphere.ply"; }, { mesh = "sphere.ply"; position = [200.0, 0.0, 0.0]; } );
+END
+expect 0 balloon-sim two.cfg --set time.end=0.1 --set view.rate=10 --pieces pieces.tsv
+[ "$(cut -f 2 pieces.tsv | sort | tr '\n' ' ')" = '0 1 balloon ' ] || fail "the balloons are: $(cut -f 2 pieces.tsv)"
+
 # a failed run leaves the old table, and what cannot be written is found out beforehand
 echo old >pieces.tsv
 refused 1 'no/such/pieces.tsv: cannot create' balloon-sim sphere.cfg $quick --pieces no/such/pieces.tsv
