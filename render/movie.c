@@ -151,9 +151,10 @@ static char *list_encoders(void)
     pid_t child;
     if (nothing >= 0 && said >= 0 && !spawn(arguments, nothing, said, &child) && wait_for(child)) {
         const off_t size = lseek(said, 0, SEEK_END);
-        text = size > 0 ? calloc(1, (size_t)size + 1) : NULL;
-        if (text && pread(said, text, (size_t)size, 0) != size)
-            text[0] = '\0';
+        text = malloc((size_t)size + 1);
+        const ssize_t got = text ? pread(said, text, (size_t)size, 0) : 0;
+        if (text)
+            text[got > 0 ? got : 0] = '\0';
     }
     if (nothing >= 0)
         close(nothing);

@@ -1,86 +1,8 @@
-/* What becomes of a run's pictures: PNGs, a movie, and what is said when they cannot be. */
-#include "common/file.h"
-#include "pictures.h"
+/* What becomes of a run's pictures: PNGs, movies, and what is said when they cannot be. */
+#include "films.h"
 #include "render/frames.h"
-#include "render/movie.h"
 
-#include <ftw.h>
-#include <glob.h>
 #include <png.h>
-#include <signal.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-static char folder[] = "/tmp/balloon-frames-XXXXXX";
-static char *usual_path;
-
-static int enter_folder(void **state)
-{
-    (void)state;
-    usual_path = strdup(getenv("PATH"));
-    return !mkdtemp(folder) || chdir(folder);
-}
-
-static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *walk)
-{
-    (void)info, (void)kind;
-    return walk->level ? remove(path) : 0;
-}
-
-/* Each test begins in an empty folder, with the user's programs. */
-static int empty_folder(void **state)
-{
-    (void)state;
-    setenv("PATH", usual_path, 1);
-    return nftw(".", remove_entry, 16, FTW_DEPTH | FTW_PHYS);
-}
-
-static int leave_folder(void **state)
-{
-    empty_folder(state);
-    free(usual_path);
-    return rmdir(folder);
-}
-
-static size_t names_like(const char *pattern)
-{
-    glob_t found;
-    size_t count = glob(pattern, 0, NULL, &found) ? 0 : found.gl_pathc;
-    globfree(&found);
-    return count;
-}
-
-static void write_text(const char *path, const char *text, mode_t mode)
-{
-    FILE *stream = fopen(path, "w");
-    assert_non_null(stream);
-    fputs(text, stream);
-    fclose(stream);
-    chmod(path, mode);
-}
-
-static void assert_contents(const char *path, const char *text)
-{
-    struct error err;
-    struct bytes bytes = {0};
-    assert_ok(file_read(path, &bytes, &err), &err);
-    assert_string_equal((const char *)bytes.data, text);
-    bytes_clear(&bytes);
-}
-
-/* Stands in for ffmpeg: a shell script at the front of PATH. "$output" is the name that it should write. */
-static void pretend_ffmpeg(const char *script)
-{
-    char *text, *path;
-    mkdir("bin", 0777);
-    assert_true(asprintf(&text, "#!/bin/sh\nfor output; do :; done\noutput=${output#file:}\n%s\n", script) >
-                0);
-    write_text("bin/ffmpeg", text, 0755);
-    assert_true(asprintf(&path, "%s/bin:%s", folder, usual_path) > 0);
-    setenv("PATH", path, 1);
-    free(text);
-    free(path);
-}
 
 /* Picture n: n red, x green, y blue. */
 static void paint(struct image *image, int n)
@@ -295,35 +217,19 @@ static void a_missing_ffmpeg_is_named_with_its_package(void **state)
     assert_int_equal(names_like("*"), 0);
 }
 
-static void movies_have_a_known_extension_and_are_no_folders(void **state)
+/* ffmpeg tells by the extension what to write, so the link itself is replaced. */
+static void a_link_to_a_file_that_is_no_movie_is_not_followed(void **state)
 {
     (void)state;
-    struct error err;
-    pretend_ffmpeg("exit 1");
-    mkdir("d.mp4", 0777);
-    assert_refused(movie_check("m.avi", &err), STATUS_USAGE, "m.avi: a movie's name must end in .mp4", &err);
-    assert_refused(movie_check("mp4", &err), STATUS_USAGE, "must end in", &err);
-    assert_refused(movie_check("d.mp4", &err), STATUS_FILE, "is a folder", &err);
-    assert_ok(movie_check("M.GIF", &err), &err);
-    struct movie *movie;
-    assert_refused(movie_open("m.mp4", 1, 10, 30, &movie, &err), STATUS_RANGE, "not 1 x 10", &err);
-    assert_refused(movie_open("m.mp4", 10, 10, 0, &movie, &err), STATUS_RANGE, "pictures a second", &err);
-    assert_refused(movie_open("no/m.mp4", 10, 10, 9, &movie, &err), STATUS_FILE, "no/m.mp4: cannot create",
-                   &err);
-}
-
-static void an_abandoned_movie_is_not_there(void **state)
-{
-    (void)state;
-    struct error err;
-    struct movie *movie;
-    struct image image = a_picture(10, 10);
     pretend_ffmpeg("exec cat >\"$output\"");
-    assert_ok(movie_open("m.gif", 10, 10, 30, &movie, &err), &err);
-    assert_ok(movie_add(movie, &image, &err), &err);
-    movie_abandon(movie);
-    assert_int_equal(names_like("m*"), 0);
-    image_clear(&image);
+    write_text("notes.txt", "notes", 0644);
+    assert_int_equal(symlink("notes.txt", "m.gif"), 0);
+    run(&(struct frames_options){.movie = "m.gif"}, 10, 10, 2);
+    struct stat info;
+    assert_contents("notes.txt", "notes");
+    assert_int_equal(lstat("m.gif", &info), 0);
+    assert_true(S_ISREG(info.st_mode));
+    assert_int_equal(info.st_size, 2 * 300);
 }
 
 /* What `ffprobe` says about a movie's first stream. */
@@ -371,8 +277,7 @@ int main(void)
         cmocka_unit_test_setup(ffmpeg_gets_every_picture_in_order, empty_folder),
         cmocka_unit_test_setup(a_movie_that_fails_leaves_the_old_one_and_no_other, empty_folder),
         cmocka_unit_test_setup(a_missing_ffmpeg_is_named_with_its_package, empty_folder),
-        cmocka_unit_test_setup(movies_have_a_known_extension_and_are_no_folders, empty_folder),
-        cmocka_unit_test_setup(an_abandoned_movie_is_not_there, empty_folder),
+        cmocka_unit_test_setup(a_link_to_a_file_that_is_no_movie_is_not_followed, empty_folder),
         cmocka_unit_test_setup(real_movies_have_every_picture_and_even_sides, empty_folder),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
