@@ -254,7 +254,7 @@ static enum status link_or_copy(const char *from, const char *to, struct error *
     return status;
 }
 
-/* To another file system: a file of its own, locked before it has the name. */
+/* To another file system: a file of its own. */
 static enum status copy_journal(struct journal *journal, const char *to, struct error *err)
 {
     enum status status = link_or_copy(journal->path, to, err);

@@ -3,6 +3,8 @@
 #include "journals.h"
 #include "sculpt/chip_log.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 
 static void a_new_cube_and_what_was_done_to_it_are_recovered(void **state)
@@ -251,20 +253,60 @@ static void a_journal_that_cannot_be_removed_is_named(void **state)
     assert_int_equal(access(JOURNAL, F_OK), 0);
 }
 
+static char elsewhere[] = "/dev/shm/balloon-journal-XXXXXX";
+
+/* Makes a folder on another file system, and a name for a sculpture in it. False where there is none. */
+static bool go_elsewhere(char path[64])
+{
+    struct stat here, there;
+    strcpy(elsewhere + sizeof elsewhere - 7, "XXXXXX");
+    snprintf(path, 64, "%s/a.oct", mkdtemp(elsewhere));
+    if (!stat(".", &here) && !stat(elsewhere, &there) && here.st_dev != there.st_dev)
+        return true;
+    rmdir(elsewhere);
+    print_message("# skipped: /dev/shm is no other file system than the test's folder\n");
+    return false;
+}
+
+static int others_file;
+
+static void another_program_locks(void)
+{
+    char name[80];
+    snprintf(name, sizeof name, "%s/" JOURNAL, elsewhere);
+    others_file = open(name, O_RDWR | O_CLOEXEC);
+    assert_int_equal(__real_flock(others_file, LOCK_EX | LOCK_NB), 0);
+}
+
+static void a_journal_that_another_program_takes_on_its_way_stays(void **state)
+{
+    (void)state;
+    char path[64];
+    if (!go_elsewhere(path))
+        return;
+    leave_nothing();
+    struct error err = {0};
+    struct journal *journal = begin();
+    append(journal, ONE);
+    before_lock = another_program_locks;
+    assert_refused(journal_move(journal, path, &err), STATUS_RESOURCE, "another balloon-sculpt is carving",
+                   &err);
+    close(others_file);
+    append(journal, TWO);
+    journal_close(journal, false);
+    assert_recovers(ONE TWO);
+    assert_int_equal(rmdir(elsewhere), 0);
+}
+
 /* Neither a new name nor a link reaches there: journal and base are copied. */
 static void a_journal_goes_along_to_another_file_system(void **state)
 {
     (void)state;
-    char other[] = "/dev/shm/balloon-journal-XXXXXX", path[64], name[80];
-    struct stat here, there;
-    if (!mkdtemp(other) || stat(".", &here) || stat(other, &there) || here.st_dev == there.st_dev) {
-        rmdir(other);
-        print_message("# skipped: /dev/shm is no other file system than the test's folder\n");
+    char path[64], name[80];
+    if (!go_elsewhere(path))
         return;
-    }
     leave_nothing();
     struct error err = {0};
-    snprintf(path, sizeof path, "%s/a.oct", other);
     struct octree tree = carved(ONE), wanted = carved(ONE TWO THREE);
     struct journal *journal = NULL;
     struct journal_report report;
@@ -288,7 +330,7 @@ static void a_journal_goes_along_to_another_file_system(void **state)
         snprintf(name, sizeof name, "%s%s", path, i ? ".journal-base" : ".journal");
         assert_int_equal(unlink(name), 0);
     }
-    rmdir(other);
+    rmdir(elsewhere);
 }
 
 int main(void)
@@ -308,6 +350,7 @@ int main(void)
         cmocka_unit_test(going_on_with_a_journal_changes_nothing_about_it),
         cmocka_unit_test(a_journal_that_goes_away_while_it_is_opened_is_begun_anew),
         cmocka_unit_test(a_journal_that_cannot_be_removed_is_named),
+        cmocka_unit_test(a_journal_that_another_program_takes_on_its_way_stays),
         cmocka_unit_test(a_journal_goes_along_to_another_file_system),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
