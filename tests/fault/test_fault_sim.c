@@ -12,7 +12,7 @@ static struct balloon balloon;
 static int enter(void **state)
 {
     open_balloon(&balloon, 1, SETTINGS("balloons[0].pressure=1"));
-    return enter_folder(state);
+    return enter_memory(state);
 }
 
 static int leave(void **state)

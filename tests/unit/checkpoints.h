@@ -21,12 +21,4 @@ static inline enum status load(struct sim *sim, const char *path, struct error *
     return status;
 }
 
-/* Hundreds of files that are synced: in memory, where the machine has room there. */
-static inline int enter_memory(void **state)
-{
-    if (!access("/dev/shm", W_OK))
-        strcpy(test_folder, "/dev/shm/balloon-XXXXXX");
-    return enter_folder(state);
-}
-
 #endif
