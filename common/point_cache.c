@@ -8,7 +8,6 @@ enum { SAMPLES_AT = 28 }; /* in the file */
 
 struct point_cache {
     struct file_out *out;
-    char *path;
     uint32_t point_count, samples;
 };
 
@@ -19,8 +18,7 @@ enum status point_cache_open(const char *path, uint32_t point_count, double firs
     if (!cache)
         return error_no_memory(err, path);
     cache->point_count = point_count;
-    cache->path = strdup(path);
-    enum status status = cache->path ? file_out_open(path, &cache->out, err) : error_no_memory(err, path);
+    enum status status = file_out_open(path, &cache->out, err);
     if (!status && fseek(file_out_stream(cache->out), 0, SEEK_SET))
         status = error_set_errno(err, path, "go back in it, as a cache of points must be");
     if (status) {
@@ -52,15 +50,10 @@ enum status point_cache_close(struct point_cache *cache, struct error *err)
     unsigned char samples[4];
     FILE *stream = file_out_stream(cache->out);
     put_bits(samples, cache->samples, 4);
-    enum status status = STATUS_OK;
-    if (fseek(stream, SAMPLES_AT, SEEK_SET))
-        status = error_set_errno(err, cache->path, "write");
-    else
+    if (!fseek(stream, SAMPLES_AT, SEEK_SET)) /* else what is before could not be written, as commit tells */
         fwrite(samples, 1, sizeof samples, stream);
-    if (!status) {
-        status = file_out_commit(cache->out, err);
-        cache->out = NULL;
-    }
+    enum status status = file_out_commit(cache->out, err);
+    cache->out = NULL;
     point_cache_abandon(cache);
     return status;
 }
@@ -70,6 +63,5 @@ void point_cache_abandon(struct point_cache *cache)
     if (!cache)
         return;
     file_out_abandon(cache->out);
-    free(cache->path);
     free(cache);
 }

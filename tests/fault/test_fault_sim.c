@@ -134,6 +134,19 @@ static void a_checkpoint_with_its_log_is_written_or_it_is_said_why_not(void **st
     check_run(write_checkpoint, NULL, 2);
 }
 
+/* Keys cut short would be another scene's. */
+static void a_scenes_keys_are_whole_or_not_there(void **state)
+{
+    (void)state;
+    for (struct fault fault = {.kinds = FAULT_MEMORY}; fault_next(&fault);) {
+        fault_begin(&fault);
+        char *keys = checkpoint_keys(&balloon.sim);
+        fault_end(&fault);
+        assert_true(fault.failed ? !keys : keys != NULL);
+        free(keys);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -141,6 +154,7 @@ int main(void)
         cmocka_unit_test(a_cache_of_motion_is_written_or_it_is_said_why_not),
         cmocka_unit_test(a_table_of_pieces_is_written_or_it_is_said_why_not),
         cmocka_unit_test(a_checkpoint_with_its_log_is_written_or_it_is_said_why_not),
+        cmocka_unit_test(a_scenes_keys_are_whole_or_not_there),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }
