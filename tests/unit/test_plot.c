@@ -152,7 +152,9 @@ static void a_signal_while_gnuplot_draws_is_no_failure(void **state)
     struct bytes bytes = {0};
     struct sigaction before, action = {.sa_handler = note_signal};
     sigaction(SIGALRM, &action, &before);
-    assert_ok(save_by("#!/bin/sh\nkill -ALRM $PPID\n/bin/sleep 0.1\necho drawn\n", "a.svg", &err), &err);
+    assert_ok(
+        save_by("#!/bin/sh\n/bin/sleep 0.1\nkill -ALRM $PPID\n/bin/sleep 0.1\necho drawn\n", "a.svg", &err),
+        &err);
     sigaction(SIGALRM, &before, NULL);
     assert_ok(file_read("a.svg", &bytes, &err), &err);
     assert_string_equal((const char *)bytes.data, "drawn\n");
