@@ -78,7 +78,7 @@ const char shader_paper_vertex[] = "#version 330 core\n"
     "    passes = pow(vec3(max(1.0 - skin_opacity, 1e-6)), path * hold);\n"                                 \
     "    if (skin_opacity > 0.999)\n"                                                                       \
     "        passes = vec3(0.0);\n"                                                                         \
-    "    float body = body_light(n, 1.0 - 0.6 * skin_opacity);\n"                                           \
+    "    float body = body_light(n, 1.0 - skin_opacity);\n"                                                 \
     "    vec3 pale = mix(skin_colour, vec3(1.0), 0.1 * (1.0 - skin_opacity));\n"                            \
     "    float rest = 1.0 - facing;\n"                                                                      \
     "    float fresnel = 0.043 + 0.957 * rest * rest * rest * rest * rest;\n"                               \

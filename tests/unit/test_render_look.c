@@ -78,6 +78,25 @@ static void both_sides_of_a_skin_are_lit_alike(void **state)
     image_clear(&back);
 }
 
+/* Turned away from the key light, to the right and down, white skin has the fill's and the room's: .12 x .916 +
+ * .10 + .20 x .25 = .26 (shaders_studio.h). Rounded as above. */
+static void what_is_opaque_passes_no_light_from_behind(void **state)
+{
+    (void)state;
+    struct cards cards = {0};
+    add_card(&cards, -1, -1, 1, 1, 0);
+    const double away[3] = {0.7, -0.5, 0.51};
+    double normal[4][3];
+    for (int p = 0; p < 4; p++)
+        memcpy(normal[p], away, sizeof away);
+    cards.mesh.normal = normal;
+    struct render_skin skin = skin_of(&cards, 1, 1, 1);
+    struct render_view view = square_view();
+    struct image image = drawn(&view, &skin, 1);
+    assert_near(linear(pixel(&image, 100, 100)[0]), 0.26, 0.007);
+    image_clear(&image);
+}
+
 static void points_without_a_normal_take_the_facets(void **state)
 {
     (void)state;
@@ -212,6 +231,7 @@ int main(void)
         cmocka_unit_test(opacity_one_half_blends_half_of_what_lies_behind),
         cmocka_unit_test(smooth_edges_change_outlines_only),
         cmocka_unit_test(both_sides_of_a_skin_are_lit_alike),
+        cmocka_unit_test(what_is_opaque_passes_no_light_from_behind),
         cmocka_unit_test(points_without_a_normal_take_the_facets),
         cmocka_unit_test(shinier_skin_has_a_stronger_highlight),
         cmocka_unit_test(opacity_is_smooth_unless_facets_are_wanted),
