@@ -78,8 +78,8 @@ static void both_sides_of_a_skin_are_lit_alike(void **state)
     image_clear(&back);
 }
 
-/* Turned away from the key light, to the right and down, white skin has the fill's and the room's: .12 x .916 +
- * .10 + .20 x .25 = .26 (shaders_studio.h). Rounded as above. */
+/* Turned away from the key light, to the right and down, white skin has the fill's and the room's: .12 x .916
+ * + .10 + .20 x .25 = .26 (shaders_studio.h). Rounded as above. */
 static void what_is_opaque_passes_no_light_from_behind(void **state)
 {
     (void)state;
