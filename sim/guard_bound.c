@@ -19,8 +19,9 @@ static bool is_outer_only(const struct sim *sim)
 
 static struct limits limits_of(const struct sim *sim)
 {
-    const double outer = sim->acting->outer_limit, w = outer > 0 ? outer : sim->acting->oscillation_limit;
-    struct limits l = {.damping = 1 / (outer > 0 ? outer : sim->acting->decay_limit)};
+    const struct integrator *method = sim->acting;
+    const double w = is_outer_only(sim) ? method->outer_limit : method->oscillation_limit;
+    struct limits l = {.damping = 1 / (is_outer_only(sim) ? method->outer_limit : method->decay_limit)};
     if (w > 0)
         l.stiffness = 1 / (w * w);
     else
@@ -34,6 +35,7 @@ static double largest_step(const struct limits *l, double stiffness, double damp
     return 2 / (b + sqrt(b * b + 4 * a)); /* the positive root, in the form that does not cancel */
 }
 
+/* Where springs are left out pressure is too: it makes a point tremble, but no more (guard.h). */
 static void find_pressure(const struct sim *sim, const struct guard_rows *rows)
 {
     for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++) {
@@ -46,36 +48,45 @@ static void find_pressure(const struct sim *sim, const struct guard_rows *rows)
     }
 }
 
-/* The largest of those who ask for a point's row. */
-struct asker {
-    uint32_t point, cause;
-    double ask;
-};
-
-/* How much of a step h its rows take, for largest_step(). */
+/* How much of a step h a point's rows take, for largest_step(). */
 static double ask_of(const struct guard *guard, const struct limits *l, double h, uint32_t p)
 {
     return (h * l->stiffness + l->growth) * guard->rows.stiffness[p] + l->damping * guard->rows.damping[p];
 }
 
-/* What acts on single points: pressure and effects. Returns what these ask of a step besides. Where
- * `asker` is not NULL, sets its cause. */
-static struct guard_follow find_rows(struct sim *sim, const struct limits *l, double h, struct asker *asker)
+/* Who asks for most of a point's row, at the step h. */
+struct asker {
+    const struct limits *limits;
+    double h, most, before;
+    uint32_t point, cause;
+};
+
+/* What the row has grown by since the last call is the cause's; NULL: nobody wants to know. */
+static void note_asker(const struct guard *guard, struct asker *a, uint32_t cause)
+{
+    if (!a)
+        return;
+    const double now = ask_of(guard, a->limits, a->h, a->point), more = now - a->before;
+    a->before = now;
+    if (more > a->most) {
+        a->most = more;
+        a->cause = cause;
+    }
+}
+
+/* What acts on single points: pressure and effects. Returns what these ask of a step besides. */
+static struct guard_follow find_rows(struct sim *sim, struct asker *asker)
 {
     struct guard_follow follow = {INFINITY, NULL};
     struct guard_rows rows = sim->guard->rows;
     rows.follow = &follow;
     find_pressure(sim, &rows);
-    if (asker)
-        *asker = (struct asker){asker->point, GUARD_PRESSURE, ask_of(sim->guard, l, h, asker->point)};
+    note_asker(sim->guard, asker, GUARD_PRESSURE);
     for (size_t i = 0; i < sim->hook_count[EFFECT_FORCES]; i++) {
         const struct effect_hook *hook = &sim->hooks[EFFECT_FORCES][i];
-        const double before = asker ? ask_of(sim->guard, l, h, asker->point) : 0;
         if (hook->effect->bound)
             hook->effect->bound(sim, hook->balloon, &rows);
-        const double more = asker ? ask_of(sim->guard, l, h, asker->point) - before : 0;
-        if (asker && more > asker->ask)
-            *asker = (struct asker){asker->point, GUARD_EFFECTS + (uint32_t)i, more};
+        note_asker(sim->guard, asker, GUARD_EFFECTS + (uint32_t)i);
     }
     double push = 0;
     for (uint32_t p = 0; p < sim->point_count; p++)
@@ -186,7 +197,7 @@ void guard_find_bound(struct sim *sim)
     enum { ITERATIONS_MAX = 40 };
     struct guard_memory *memory = &sim->guard->memory;
     const struct limits l = limits_of(sim);
-    const struct guard_follow follow = find_rows(sim, &l, 0, NULL);
+    const struct guard_follow follow = find_rows(sim, NULL);
     memory->stable = 0;
     for (int i = 0; i < ITERATIONS_MAX; i++) {
         uint32_t point = 0;
@@ -201,8 +212,9 @@ void guard_find_bound(struct sim *sim)
         sharpen(sim, &l, h);
     }
     if (memory->cause == GUARD_PRESSURE) {
-        struct asker asker = {.point = memory->point};
-        find_rows(sim, &l, memory->stable, &asker);
+        struct asker asker = {
+            .limits = &l, .h = memory->stable, .point = memory->point, .cause = GUARD_PRESSURE};
+        find_rows(sim, &asker);
         memory->cause = asker.cause;
     }
     if (follow.step < memory->stable) {

@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Rounding of places, by forces that a whole skin adds up, moves them by so many times as much. */
+/* Rounding of places, by forces that a whole skin adds up, moves them by so many times as much: corrections
+ * of stiff skins that no longer shrink, and are no larger, are noise. */
 enum { NEWTON_ITERATIONS_MAX = 12, HALVINGS_MAX = 10, NOISE = 64 };
 
 /* The residual that a linear solve leaves, and what of the first correction may be left when
@@ -163,25 +164,26 @@ static bool newton(struct sim *sim, double c, double *size)
 
 bool implicit_solve(struct sim *sim, double c)
 {
-    double first = 0, before = INFINITY, size = INFINITY;
+    double first = 0, before = INFINITY, size;
     place_points(sim, c);
     for (int i = 0; i < NEWTON_ITERATIONS_MAX; i++, before = size) {
         const double scalar_change = evaluate(sim, c);
         if (!newton(sim, c, &size))
             return false;
-        if (i > 1 && size > before)
+        const bool grows = i > 1 && size > before, is_noise = grows && size <= NOISE * rounding(sim, c);
+        if (grows && !is_noise)
             break;
         first = fmax(first, size);
         const double left = i == 0 ? linear_tolerance * size : size * (size / before);
-        if ((i > 0 && left <= newton_tolerance * first && scalar_change <= newton_tolerance) ||
-            size <= rounding(sim, c)) {
+        const bool is_small = is_noise || (i > 0 && left <= newton_tolerance * first);
+        if ((is_small && scalar_change <= newton_tolerance) || size <= rounding(sim, c)) {
             if (sim->scalar_count > 0)
                 evaluate(sim, c);
             return true;
         }
     }
     note_worst(sim, false);
-    return size <= NOISE * rounding(sim, c); /* corrections that no longer shrink are noise of stiff forces */
+    return false;
 }
 
 static void remember_start(struct sim *sim)

@@ -2,6 +2,11 @@
 #include "membranes.h"
 #include "sim/membrane_kernels.h"
 
+enum { LAWS = 4 };
+static const char *const laws[LAWS] = {"balloons[0].membrane.law=neo-hookean",
+                                       "balloons[0].membrane.law=mooney-rivlin",
+                                       "balloons[0].membrane.law=gent", "balloons[0].membrane.law=ogden"};
+
 /* Uniaxial: pulled to 2 along x while y and z shrink far below 2^-1/2, a triangle holds what neo-Hookean
  * rubber does when pulled: W = (4 + 2/2 - 3)/2 = 1, and pulls along x alone with 2 - 1/4. */
 static void a_wrinkled_triangle_holds_what_a_pulled_strip_does(void **state)
@@ -44,12 +49,9 @@ static void a_wrinkled_triangle_holds_what_a_pulled_strip_does(void **state)
 static void slack_skin_pushes_by_no_law(void **state)
 {
     (void)state;
-    static const char *const laws[] = {"neo-hookean", "mooney-rivlin", "gent", "ogden"};
-    for (int i = 0; i < 4; i++) {
-        char law[64];
-        snprintf(law, sizeof law, "balloons[0].membrane.law=%s", laws[i]);
+    for (int i = 0; i < LAWS; i++) {
         struct balloon b;
-        open_balloon(&b, 1, RUBBER(law, "balloons[0].membrane.compression=0"));
+        open_balloon(&b, 1, RUBBER(laws[i], "balloons[0].membrane.compression=0"));
         for (uint32_t p = 0; p < b.sim.point_count; p++)
             for (int k = 0; k < 3; k++)
                 b.sim.position[p][k] *= 0.8;
@@ -75,12 +77,9 @@ static void slack_skin_pushes_by_no_law(void **state)
 static void all_laws_agree_at_small_strain(void **state)
 {
     (void)state;
-    static const char *const laws[] = {"neo-hookean", "mooney-rivlin", "gent", "ogden"};
-    for (int i = 0; i < 4; i++) {
-        char law[64];
-        snprintf(law, sizeof law, "balloons[0].membrane.law=%s", laws[i]);
+    for (int i = 0; i < LAWS; i++) {
         struct balloon b;
-        open_balloon(&b, 1, RUBBER(law));
+        open_balloon(&b, 1, RUBBER(laws[i]));
         const double e = 1e-4, factor[3] = {1 + e, 1 + e, 1 + e};
         for (uint32_t p = 0; p < b.sim.point_count; p++)
             for (int k = 0; k < 3; k++)
