@@ -60,6 +60,8 @@ static enum status load_own(const char *path, struct mesh *mesh, struct error *e
     if (!status)
         status = formats[format_of(path)].read(&bytes, path, mesh, err);
     bytes_clear(&bytes);
+    if (status && err && !strstr(err->text, path)) /* it says what is too large, not where */
+        error_prefix(err, path);
     return status;
 }
 
