@@ -53,6 +53,8 @@ struct effect {
     /* For the ledger: what it holds now; and what it takes a second for good (dissipated) and brings from
      * outside (work), at the current state, each added. NULL: nothing. */
     double (*energy)(struct sim *sim, struct sim_balloon *balloon);
+    /* The same as the step had it before anything let go in it. NULL: letting go took none of it. */
+    double (*energy_before)(struct sim *sim, struct sim_balloon *balloon);
     void (*power)(struct sim *sim, struct sim_balloon *balloon, double *dissipated, double *work);
     /* Likewise: what goes for good as an active edge lets go or is cut, or an active
      * triangle goes. NULL: nothing. */

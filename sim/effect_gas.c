@@ -172,10 +172,15 @@ static void apply(struct sim *sim, struct sim_balloon *b)
 /* The gas is gone once the holes are wider than a sixth of a sphere of its volume, 2 R^2: they have then
  * grown by a radius within the time that a collapsing skin takes for that, and what is inside no longer
  * knows of one pressure. */
-static bool is_gone(const struct gas *gas)
+static bool is_too_wide(const struct gas *gas, double openings)
 {
     const double radius = cbrt(3 * fmax(gas->volume, 0) / (4 * M_PI));
-    return gas->holes.count > 0 && gas_openings(gas) >= 2 * radius * radius;
+    return openings >= 2 * radius * radius;
+}
+
+static bool is_gone(const struct gas *gas)
+{
+    return gas->holes.count > 0 && is_too_wide(gas, gas_openings(gas));
 }
 
 static void let_all_go(struct sim *sim, struct sim_balloon *b)
@@ -188,6 +193,31 @@ static void let_all_go(struct sim *sim, struct sim_balloon *b)
     sim->changed = true;
     guard_outdated(sim);
     sim_tell(sim, b, "gas", "has left through the holes, and sleeps");
+}
+
+static bool is_collapsed(const struct gas *gas)
+{
+    return !(gas->volume > 1e-6 * gas->rest_volume);
+}
+
+/* Triangles of the paper's skin went at once, with no time for anything to be pressed together: what is
+ * outside of the skin that is left is the gas's no longer, at the pressure and entropy that there are. Where
+ * the skin is in shreds the areas of their rims cancel out: it goes by those of the triangles. */
+static void lose_outside(struct sim *sim, struct sim_balloon *b)
+{
+    struct gas *gas = b->gas;
+    double *scalar = &sim->scalar[gas->scalar];
+    const double before = gas_torn_volume_before(sim, b);
+    gas_torn_let_go(sim, b);
+    gas->volume = gas_volume(sim, b);
+    if (is_collapsed(gas) || is_too_wide(gas, gas_torn_missing(sim, b))) {
+        let_all_go(sim, b);
+    } else if (gas->volume < before) {
+        const double lost = scalar[GAS_AMOUNT] * (1 - gas->volume / before);
+        scalar[GAS_AMOUNT] -= lost;
+        scalar[GAS_BROUGHT] -= lost;
+        sim->changed = true;
+    }
 }
 
 static bool is_bound_outdated(const struct gas *gas)
@@ -204,8 +234,8 @@ static void after(struct sim *sim, struct sim_balloon *b)
 {
     struct gas *gas = b->gas;
     struct gas_memory *memory = &gas->memory;
-    if (gas->torn && !memory->gone)
-        gas_torn_let_go(sim, b);
+    if (gas->torn && !memory->gone && !is_collapsed(gas) && gas_torn_is_behind(sim, b))
+        lose_outside(sim, b);
     if (!memory->neck_open && gas->scene->neck > 0 && sim->time >= gas->scene->neck_at) {
         memory->neck_open = 1;
         sim->changed = true;
@@ -220,7 +250,7 @@ static void after(struct sim *sim, struct sim_balloon *b)
 static enum status check(struct sim *sim, struct sim_balloon *b, struct error *err)
 {
     const struct gas *gas = b->gas;
-    if (gas->memory.gone || gas->volume > 1e-6 * gas->rest_volume)
+    if (gas->memory.gone || !is_collapsed(gas))
         return STATUS_OK;
     return error_set(
         err, STATUS_DIVERGED,
@@ -253,5 +283,6 @@ const struct effect effect_gas = {.name = "gas",
                                   .bound = gas_bound,
                                   .check = check,
                                   .energy = gas_held_energy,
+                                  .energy_before = gas_energy_before,
                                   .power = gas_power,
                                   .source = "ideal gas; Saint-Venant & Wantzel 1839"};

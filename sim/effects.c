@@ -156,14 +156,18 @@ static void after_forces(struct sim *sim)
             sim->hooks[EFFECT_FORCES][i].effect->after(sim, sim->hooks[EFFECT_FORCES][i].balloon);
 }
 
-/* What is held by effects that do not tell what is in an edge or a triangle, to be counted when that goes. */
-static double held_as_a_whole(struct sim *sim)
+/* What is held by effects that do not tell what is in an edge or a triangle, to be counted when that goes:
+ * before anything did in this step, or now. */
+static double held_as_a_whole(struct sim *sim, bool before)
 {
     double energy = 0;
     for (size_t i = 0; i < sim->hook_count[EFFECT_FORCES]; i++) {
         const struct effect_hook *hook = &sim->hooks[EFFECT_FORCES][i];
-        if (hook->effect->energy && !hook->effect->edge_energy && !hook->effect->triangle_energy)
-            energy += hook->effect->energy(sim, hook->balloon);
+        const struct effect *effect = hook->effect;
+        if (!effect->energy || effect->edge_energy || effect->triangle_energy)
+            continue;
+        energy += before && effect->energy_before ? effect->energy_before(sim, hook->balloon)
+                                                  : effect->energy(sim, hook->balloon);
     }
     return energy;
 }
@@ -172,14 +176,14 @@ static double held_as_a_whole(struct sim *sim)
 void effects_run(struct sim *sim, enum effect_phase phase)
 {
     const bool counted = sim->ledger.on && phase == EFFECT_AFTER_STEP;
-    const double held = counted ? held_as_a_whole(sim) : 0;
+    const double held = counted ? held_as_a_whole(sim, true) : 0;
     const size_t first = apply(sim, phase);
     if (phase == EFFECT_FORCES)
         finish(sim, (struct unfinished){first, sim->hook_count[phase]});
     if (phase == EFFECT_AFTER_STEP)
         after_forces(sim);
     if (counted)
-        sim->ledger.account.let_go += held - held_as_a_whole(sim);
+        sim->ledger.account.let_go += held - held_as_a_whole(sim, false);
 }
 
 enum status effects_settle(struct sim *sim, struct error *err)

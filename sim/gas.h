@@ -72,7 +72,11 @@ void gas_product(struct sim *sim, struct sim_balloon *balloon, double a, double 
                  double (*dv)[4], double (*df)[4]);
 void gas_bound(const struct sim *sim, const struct sim_balloon *balloon, const struct guard_rows *rows);
 double gas_held_energy(struct sim *sim, struct sim_balloon *balloon);
+double gas_energy_before(struct sim *sim, struct sim_balloon *balloon);
 void gas_power(struct sim *sim, struct sim_balloon *balloon, double *dissipated, double *work);
+
+/* The holes that these rims bound, where points are now; NULL: none. */
+void gas_measure_holes(const struct sim *sim, const struct gas_rims *rims, struct gas_holes *holes);
 
 /* Finds the holes as they are. */
 void gas_find_holes(const struct sim *sim, const struct sim_balloon *balloon);

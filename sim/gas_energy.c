@@ -2,6 +2,7 @@
  * the energy that is in them. */
 #include "common/vec3.h"
 #include "sim/gas.h"
+#include "sim/gas_torn.h"
 #include "sim/guard.h"
 #include "sim/vectors.h"
 
@@ -132,6 +133,17 @@ double gas_held_energy(struct sim *sim, struct sim_balloon *b)
     gas->holes = holes;
     return gas_energy(gas_amount(sim, gas), volume, sim->scalar[gas->scalar + GAS_ENTROPY], gas->g,
                       gas->scene->ambient);
+}
+
+/* What went took its share along (effect_gas.c): it is counted from what there was, not from what is left
+ * pressed together. Whoever asks leaves the rims as they are, too. */
+double gas_energy_before(struct sim *sim, struct sim_balloon *b)
+{
+    const struct gas *gas = b->gas;
+    if (gas->memory.gone || !gas->torn || !gas_torn_is_behind(sim, b))
+        return gas_held_energy(sim, b);
+    return gas_energy(gas_amount(sim, gas), gas_torn_volume_before(sim, b),
+                      sim->scalar[gas->scalar + GAS_ENTROPY], gas->g, gas->scene->ambient);
 }
 
 struct moving {

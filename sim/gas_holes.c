@@ -13,10 +13,13 @@ static uint32_t hole_of(const struct gas_rims *rims, uint32_t side)
 
 void gas_find_holes(const struct sim *sim, const struct sim_balloon *balloon)
 {
-    struct gas_holes *holes = &balloon->gas->holes;
-    const struct gas_rims *rims = balloon->rims;
     if (balloon->gas->torn)
         gas_torn_follow(sim, balloon);
+    gas_measure_holes(sim, balloon->rims, &balloon->gas->holes);
+}
+
+void gas_measure_holes(const struct sim *sim, const struct gas_rims *rims, struct gas_holes *holes)
+{
     holes->count = 0;
     if (!rims || rims->side_count == 0)
         return;

@@ -1,5 +1,6 @@
 #include "sim/gas_torn.h"
 #include "common/mesh.h"
+#include "common/vec3.h"
 #include "sim/gas.h"
 
 #include <stdlib.h>
@@ -7,17 +8,21 @@
 
 enum status gas_torn_open(struct sim *sim, struct sim_balloon *b, struct error *err)
 {
-    const uint32_t points = b->point_end - b->point_begin, edges = b->edge_end - b->edge_begin;
+    const uint32_t points = b->point_end - b->point_begin, edges = b->edge_end - b->edge_begin,
+                   triangles = b->triangle_end - b->triangle_begin;
     struct gas_torn *torn = b->gas->torn = calloc(1, sizeof *torn);
     if (!torn)
         return error_no_memory(err, "the gas");
     torn->group = sim_table(sim, points, sizeof *torn->group);
     torn->number = sim_table(sim, points, sizeof *torn->number);
     torn->sides = sim_table(sim, edges, sizeof *torn->sides);
+    torn->active = sim_table(sim, triangles, sizeof *torn->active);
     torn->rims.side = sim_table(sim, edges, sizeof *torn->rims.side);
     torn->rims.hole = sim_table(sim, edges, sizeof *torn->rims.hole);
-    if (!torn->group || !torn->number || !torn->sides || !torn->rims.side || !torn->rims.hole)
+    if (!torn->group || !torn->number || !torn->sides || !torn->active || !torn->rims.side ||
+        !torn->rims.hole)
         return error_no_memory(err, "the gas");
+    memset(torn->active, 1, triangles);
     b->rims = &torn->rims;
     return STATUS_OK;
 }
@@ -30,6 +35,7 @@ void gas_torn_close(struct sim_balloon *b)
     free(torn->group);
     free(torn->number);
     free(torn->sides);
+    free(torn->active);
     free(torn->rims.side);
     free(torn->rims.hole);
     free(torn);
@@ -134,10 +140,49 @@ void gas_torn_follow(const struct sim *sim, const struct sim_balloon *b)
     if (torn->of == now)
         return;
     torn->of = now;
+    memcpy(torn->active, &sim->triangle_active[b->triangle_begin], b->triangle_end - b->triangle_begin);
     part_all(b);
     count_sides(sim, b);
     list_sides(sim, b);
     number_holes(b);
+}
+
+bool gas_torn_is_behind(const struct sim *sim, const struct sim_balloon *b)
+{
+    return memcmp(b->gas->torn->active, &sim->triangle_active[b->triangle_begin],
+                  b->triangle_end - b->triangle_begin) != 0;
+}
+
+double gas_torn_volume_before(const struct sim *sim, const struct sim_balloon *b)
+{
+    double origin[4], volume = 0;
+    struct gas_holes holes;
+    gas_origin(sim, b, origin);
+    gas_measure_holes(sim, b->rims, &holes);
+    for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++) {
+        const uint32_t *p = sim->triangle_point[t];
+        double twice[3], from[3];
+        if (!b->gas->torn->active[t - b->triangle_begin] || !b->gas->held[p[0] - b->point_begin])
+            continue;
+        vec3_triangle(sim->position[p[0]], sim->position[p[1]], sim->position[p[2]], twice);
+        vec3_sub(sim->position[p[0]], origin, from);
+        volume += vec3_dot(twice, from) / 6;
+    }
+    return volume + gas_fan_volume(&holes, origin);
+}
+
+double gas_torn_missing(const struct sim *sim, const struct sim_balloon *b)
+{
+    double area = 0;
+    for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++) {
+        const uint32_t *p = sim->triangle_point[t];
+        double twice[3];
+        if (sim->triangle_active[t])
+            continue;
+        vec3_triangle(sim->position[p[0]], sim->position[p[1]], sim->position[p[2]], twice);
+        area += vec3_length(twice) / 2;
+    }
+    return area;
 }
 
 /* How many triangles hang together with each point that stands for a piece. Returns the largest
@@ -164,10 +209,7 @@ static uint32_t count_pieces(const struct sim *sim, const struct sim_balloon *b)
 void gas_torn_let_go(struct sim *sim, struct sim_balloon *b)
 {
     struct gas_torn *torn = b->gas->torn;
-    const uint64_t before = torn->of;
     gas_torn_follow(sim, b);
-    if (torn->of == before)
-        return;
     const uint32_t largest = count_pieces(sim, b);
     for (uint32_t p = b->point_begin; p < b->point_end; p++) {
         const uint32_t group = find(torn->group, p - b->point_begin);

@@ -1,17 +1,6 @@
 /* Gas against the laws of an ideal gas: amounts, pressures, energies and thrust. */
-#include "sim/effect_gas.h"
+#include "gas.h"
 #include "sim/gas.h"
-#include "unit/books.h"
-
-/* Gas of 10 around, in the paper's balloon at level 2: 162 points. */
-#define GAS(...)                                                                                             \
-    SETTINGS("balloons[0].gas.ambient=10", "balloons[0].threshold=100", "time.guard=off", "time.step=0.005", \
-             __VA_ARGS__)
-
-static struct gas_look look(struct balloon *b)
-{
-    return gas_look(&b->sim, &b->sim.balloons[0]);
-}
 
 /* Six numbers of each sum of some 320 terms are rounded: 1e-13 is generous. */
 static void what_fills_a_balloon_is_as_asked(void **state)
@@ -251,34 +240,6 @@ static void a_tube_evens_two_balloons_out(void **state)
     scene_clear(&scene);
 }
 
-/* The prick: a tear of the paper's kind opens nothing that gas could get out of; but rims do. A square hole
- * of four triangles' sides lets it out until the skin is open so wide that all is gone. */
-static void a_hole_lets_it_out(void **state)
-{
-    (void)state;
-    struct balloon b;
-    open_balloon(&b, 3, GAS("balloons[0].gas.fill=2.5", "balloons[0].gas.density=0.001"));
-    struct sim *sim = &b.sim;
-    const struct gas_look before = look(&b);
-    uint32_t side[64][2], hole[64] = {0};
-    struct gas_rims rims = {side, hole, 0, 1};
-    for (uint32_t t = 0; t < sim->triangle_count; t++) /* the fan of point 0: its outer sides are the rim */
-        for (int k = 0; k < 3 && sim->triangle_active[t]; k++)
-            if (sim->triangle_point[t][k] == 0) {
-                side[rims.side_count][1] = sim->triangle_point[t][(k + 1) % 3];
-                side[rims.side_count++][0] = sim->triangle_point[t][(k + 2) % 3];
-                sim->triangle_active[t] = 0;
-            }
-    sim->balloons[0].rims = &rims;
-    const struct gas_look open = look(&b);
-    assert_true(open.hole_area > 0 && open.volume < before.volume && open.volume > 0.98 * before.volume);
-    steps(&b, 20);
-    const struct gas_look after = look(&b);
-    assert_true(after.amount < before.amount);
-    assert_near(after.amount, before.amount + after.brought, 1e-13 * before.amount);
-    close_balloon(&b);
-}
-
 /* The balance of energies, with everything that gas can do; its error falls with the method's order (RK4: 16
  * at half the step; 10 leaves room for the next order). */
 static double balance_error(const char *step, const char *more, const char *again, double *scale)
@@ -327,29 +288,6 @@ static void any_number_of_threads_gives_the_same_bits(void **state)
     assert_true(hash[0] == hash[1] && hash[0] == hash[2]);
 }
 
-/* A skin that goes in one step closes nothing, and the pressure of what it held would have no end. The books
- * count what there was: they are never without a number, and neither are those of gas that is gone. */
-static void gas_whose_skin_goes_at_once_has_an_energy(void **state)
-{
-    (void)state;
-    for (int adiabatic = 0; adiabatic < 2; adiabatic++) {
-        struct balloon b;
-        open_balloon(&b, 1,
-                     GAS("balloons[0].gas.fill=2", adiabatic ? "balloons[0].gas.process=adiabatic"
-                                                             : "balloons[0].gas.process=isothermal"));
-        struct sim *sim = &b.sim;
-        sim_forces(sim);
-        const double before = effects_energy(sim);
-        assert_true(before > 0);
-        memset(sim->triangle_active, 0, sim->triangle_count);
-        const double after = effects_energy(sim);
-        assert_near(after, before, 1e-12 * before);
-        sim->balloons[0].gas->memory.gone = 1;
-        assert_true(effects_energy(sim) == 0);
-        close_balloon(&b);
-    }
-}
-
 /* A skin that is pushed through itself has no volume that gas could fill: the run ends, and says why. */
 static void a_volume_below_nothing_is_refused(void **state)
 {
@@ -378,10 +316,8 @@ int main(void)
         cmocka_unit_test(an_open_neck_makes_it_fly),
         cmocka_unit_test(a_choked_neck_empties_exponentially),
         cmocka_unit_test(a_tube_evens_two_balloons_out),
-        cmocka_unit_test(a_hole_lets_it_out),
         cmocka_unit_test(the_balance_of_energies_holds),
         cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
-        cmocka_unit_test(gas_whose_skin_goes_at_once_has_an_energy),
         cmocka_unit_test(a_volume_below_nothing_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
