@@ -33,6 +33,7 @@ static enum status open(struct sim *sim, struct sim_balloon *b, struct error *er
         return error_no_memory(err, "the pins");
     for (uint32_t i = 0; i < pins->count; i++)
         memcpy(pins->place[i], sim->position[pins->point[i]], sizeof pins->place[i]);
+    pins->let_go = b->scene->pins.until <= 0;
     return STATUS_OK;
 }
 

@@ -20,7 +20,9 @@ struct string {
     uint32_t count;
     double length;
     double end[3]; /* where it is held, without a weight */
+    double weight; /* at that end; 0 where the string, which never pulls, carries none */
     uint32_t scalar;
+    uint64_t bounded; /* 1: the guard's bound counts it, which may be taut soon; state */
 };
 
 static bool wanted(const struct scene_balloon *balloon)
@@ -43,9 +45,11 @@ static enum status open(struct sim *sim, struct sim_balloon *b, struct error *er
     if (!string)
         return error_no_memory(err, "the string");
     string->scene = &b->scene->string;
+    if (string->scene->stiffness > 0 || string->scene->damping > 0)
+        string->weight = string->scene->weight;
     enum status status = patch_find(sim, b, string->scene->place, string->scene->reach, &string->point,
                                     &string->count, err);
-    if (!status && string->scene->weight > 0)
+    if (!status && string->weight > 0)
         status = sim_add_scalars(sim, STRING_SCALARS, &string->scalar, err);
     if (status)
         return status;
@@ -54,7 +58,7 @@ static enum status open(struct sim *sim, struct sim_balloon *b, struct error *er
     for (int i = 0; i < 3; i++)
         string->end[i] = b->centre[i] + string->scene->to[i] * b->radius;
     string->length = string->scene->slack * vec3_distance(mean, string->end);
-    if (string->scene->weight > 0)
+    if (string->weight > 0)
         memcpy(&sim->scalar[string->scalar + STRING_PLACE], string->end, sizeof string->end);
     return STATUS_OK;
 }
@@ -76,7 +80,7 @@ struct pull {
 
 static struct pull pull_of(const struct sim *sim, const struct string *string)
 {
-    const bool weight = string->scene->weight > 0;
+    const bool weight = string->weight > 0;
     const double *end = weight ? &sim->scalar[string->scalar + STRING_PLACE] : string->end;
     struct pull pull;
     double l[3];
@@ -102,13 +106,13 @@ static void apply(struct sim *sim, struct sim_balloon *b)
     for (uint32_t k = 0; k < string->count; k++)
         for (int i = 0; i < 3; i++)
             sim->force[string->point[k]][i] -= pull.tension * pull.along[i] / string->count;
-    if (string->scene->weight == 0)
+    if (string->weight == 0)
         return;
     double *rate = &sim->scalar_rate[string->scalar], *scalar = &sim->scalar[string->scalar];
     for (int i = 0; i < 3; i++) {
         const double falling = sim->scene->gravity.on ? sim->scene->gravity.acceleration[i] : 0;
         rate[STRING_PLACE + i] = scalar[STRING_SPEED + i];
-        rate[STRING_SPEED + i] = falling + pull.tension * pull.along[i] / string->scene->weight;
+        rate[STRING_SPEED + i] = falling + pull.tension * pull.along[i] / string->weight;
     }
 }
 
@@ -135,20 +139,41 @@ static void product(struct sim *sim, struct sim_balloon *b, double a, double (*d
             df[string->point[k]][i] -= (dt * pull.along[i] + a * pull.tension * du[i]) / string->count;
 }
 
+/* By how much of its length a string may be shorter and be taut soon. */
+static const double near = 0.1, far = 0.2;
+
 /* A point feels its share, and what is stretched already pulls; and a weight that swings faster than the
- * point would is made up for by more of it. */
+ * point would is made up for by more of it. What hangs slack asks for nothing. */
 static void bound(const struct sim *sim, const struct sim_balloon *b, const struct guard_rows *rows)
 {
-    const struct string *string = b->string;
-    const double stretched = fmax(0, pull_of(sim, string).length - string->length);
+    struct string *string = b->string;
+    const double length = pull_of(sim, string).length, stretched = fmax(0, length - string->length);
+    string->bounded = length >= (1 - near) * string->length;
+    if (!string->bounded)
+        return;
     for (uint32_t k = 0; k < string->count; k++) {
         const uint32_t p = string->point[k];
         const double share = 1.0 / string->count,
-                     more = string->scene->weight > 0 ? sim->mass[p] / string->scene->weight : 0;
+                     more = string->weight > 0 ? sim->mass[p] / string->weight : 0;
         rows->stiffness[p] += 2 * string->scene->stiffness * (share + more);
         rows->damping[p] += 2 * string->scene->damping * (share + more);
         rows->push[p] += string->scene->stiffness * stretched * share;
     }
+}
+
+static void after(struct sim *sim, struct sim_balloon *b)
+{
+    const struct string *string = b->string;
+    const double least = 1 - (string->bounded ? far : near);
+    if ((pull_of(sim, string).length >= least * string->length) != string->bounded)
+        guard_outdated(sim);
+}
+
+static size_t blocks(struct sim *sim, struct sim_balloon *b, struct sim_block *list)
+{
+    (void)sim;
+    list[0] = (struct sim_block){"string", &b->string->bounded, sizeof b->string->bounded};
+    return 1;
 }
 
 static double energy(struct sim *sim, struct sim_balloon *b)
@@ -156,7 +181,7 @@ static double energy(struct sim *sim, struct sim_balloon *b)
     const struct string *string = b->string;
     const double stretched = fmax(0, pull_of(sim, string).length - string->length);
     double sum = string->scene->stiffness * stretched * stretched / 2;
-    const double weight = string->scene->weight, *scalar = weight > 0 ? &sim->scalar[string->scalar] : NULL;
+    const double weight = string->weight, *scalar = weight > 0 ? &sim->scalar[string->scalar] : NULL;
     for (int i = 0; i < 3 && weight > 0; i++) {
         const double falling = sim->scene->gravity.on ? sim->scene->gravity.acceleration[i] : 0;
         sum += weight *
@@ -180,6 +205,8 @@ const struct effect effect_string = {.name = "string",
                                      .open = open,
                                      .close = close,
                                      .apply = apply,
+                                     .after = after,
+                                     .blocks = blocks,
                                      .product = product,
                                      .bound = bound,
                                      .energy = energy,

@@ -15,8 +15,11 @@ static bool wanted(const struct scene_balloon *balloon)
     return balloon->viscosity.on;
 }
 
+/* Arms that pull at nothing are left out: methods would follow how they give way. */
 static enum status open(struct sim *sim, struct sim_balloon *b, struct error *err)
 {
+    if (b->scene->viscosity.ratio == 0)
+        return STATUS_OK;
     b->arm_count = b->edge_end - b->edge_begin;
     return sim_add_scalars(sim, b->arm_count, &b->arms, err);
 }
