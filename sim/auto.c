@@ -258,6 +258,8 @@ static enum status advance(struct sim *sim, double dt, struct error *err)
     sim->method = m->own[m->memory.candidate];
     enum status status = candidates[m->memory.candidate]->advance(sim, dt, err);
     sim->method = m;
+    if (status == STATUS_INTERRUPTED && sim->steps_since % sim->substeps == 0)
+        m->memory.steps--; /* it is still to be begun */
     return status;
 }
 

@@ -52,8 +52,9 @@ static inline void guard_follow(const struct guard_rows *asked, const struct sim
         *asked->follow = (struct guard_follow){step, balloon};
 }
 
-/* A step may be split in no more parts than this. */
-enum { GUARD_PARTS_MAX = 1000000 };
+/* A step may be split in no more parts than this, some million: by the guard, or by a method that solves
+ * equations and finds no solution over longer ones, in halves of halves. */
+enum { GUARD_PARTS_MAX = 1 << 20 };
 
 enum status guard_open(struct sim *sim, struct error *err); /* STATUS_NO_MEMORY */
 void guard_close(struct sim *sim);

@@ -1,4 +1,5 @@
 #include "sim/implicit.h"
+#include "sim/guard.h"
 #include "sim/jacobian.h"
 #include "sim/vectors.h"
 
@@ -8,7 +9,10 @@
 
 /* Rounding of places, by forces that a whole skin adds up, moves them by so many times as much: corrections
  * of stiff skins that no longer shrink, and are no larger, are noise. */
-enum { NEWTON_ITERATIONS_MAX = 12, HALVINGS_MAX = 10, NOISE = 64 };
+enum { NEWTON_ITERATIONS_MAX = 12, NOISE = 64 };
+
+/* Parts of a step that are so short may turn edges: of those that go through themselves they always do. */
+enum { TURN_PARTS = 1024 };
 
 /* The residual that a linear solve leaves, and what of the first correction may be left when
  * Newton's method stops. With 1e-3 or 1e-5 for the former, a step took a tenth less or more time, on
@@ -186,39 +190,31 @@ bool implicit_solve(struct sim *sim, double c)
     return false;
 }
 
-static void remember_start(struct sim *sim)
+/* Whose equations were furthest from solved. */
+static const struct sim_balloon *worst_balloon(const struct sim *sim)
 {
-    vector_copy(sim, sim->scratch[IMPLICIT_START_POSITION], sim->position);
-    vector_copy(sim, sim->scratch[IMPLICIT_START_VELOCITY], sim->velocity);
-    for (uint32_t i = 0; i < sim->scalar_count; i++)
-        sim->scalar_scratch[IMPLICIT_START_VELOCITY][i] = sim->scalar[i];
-}
-
-static void return_to_start(struct sim *sim)
-{
-    vector_copy(sim, sim->position, sim->scratch[IMPLICIT_START_POSITION]);
-    vector_copy(sim, sim->velocity, sim->scratch[IMPLICIT_START_VELOCITY]);
-    for (uint32_t i = 0; i < sim->scalar_count; i++)
-        sim->scalar[i] = sim->scalar_scratch[IMPLICIT_START_VELOCITY][i];
+    const struct implicit *m = sim->method;
+    const struct sim_balloon *b = sim->balloons;
+    while (b + 1 < sim->balloons + sim->balloon_count && m->worst_point >= b->point_end)
+        b++;
+    return b;
 }
 
 static enum status give_up(struct sim *sim, double dt, struct error *err)
 {
     const struct implicit *m = sim->method;
-    size_t b = 0;
-    while (b + 1 < sim->balloon_count && m->worst_point >= sim->balloons[b].point_end)
-        b++;
+    const struct sim_balloon *b = worst_balloon(sim);
     const double *x = sim->position[m->worst_point];
     const bool chosen = sim->acting != sim->integrator;
     return error_set(
         err, STATUS_DIVERGED,
-        "%s: diverged at time %g (step %llu): %s%s%s%s finds no solution even over %.3g s, a 1024th of "
-        "the step of %g; furthest from one is point %u of balloons[%zu] at (%g, %g, %g), by an "
+        "%s: diverged at time %g (step %llu): %s%s%s%s finds no solution even over %.3g s, a millionth "
+        "of the step of %g; furthest from one is point %u of balloons[%zu] at (%g, %g, %g), by an "
         "acceleration of %.3g; %s",
         sim->scene->path, sim->time, (unsigned long long)sim->steps, sim->acting->name,
         chosen ? " (chosen by " : "", chosen ? sim->integrator->name : "", chosen ? ")" : "",
-        dt / (1 << HALVINGS_MAX), dt, m->worst_point - sim->balloons[b].point_begin, b, x[0], x[1], x[2],
-        m->worst * (1 << HALVINGS_MAX) / dt,
+        dt / GUARD_PARTS_MAX, dt, m->worst_point - b->point_begin, (size_t)(b - sim->balloons), x[0], x[1],
+        x[2], m->worst * GUARD_PARTS_MAX / dt,
         m->is_linear
             ? "what is stiff there is too stiff for 16 digits: softer, heavier or shorter steps will do"
             : "forces that change this fast want another integrator, or other springs, masses or pressure");
@@ -253,30 +249,52 @@ static bool has_turned(struct sim *sim)
     return turned;
 }
 
-/* Whether a trial has had enough of this method, or has to end. */
+/* Whether a trial has had enough of this method. */
 static bool is_too_dear(const struct sim *sim)
 {
     const struct implicit *m = sim->method;
-    return m->iterations_most && (m->solver.iterations > m->iterations_most || !sim_goes_on(sim));
+    return m->iterations_most && m->solver.iterations > m->iterations_most;
+}
+
+/* The step is taken in parts from here on: what it began with is kept for whoever ends it half-way. */
+static void begin_parts(struct sim *sim)
+{
+    struct implicit *m = sim->method;
+    vector_keep_state(sim, IMPLICIT_WHOLE_POSITION);
+    if (!m->iterations_most && !m->told)
+        sim_tell(sim, worst_balloon(sim), sim->acting->name,
+                 "finds no solution over a whole step, which it takes in halves, or halves of those");
+    m->told |= !m->iterations_most;
+}
+
+static enum status end_half_way(struct sim *sim, struct error *err)
+{
+    vector_return_to(sim, IMPLICIT_WHOLE_POSITION);
+    return error_set(err, STATUS_INTERRUPTED, "interrupted at %g s", sim->time);
 }
 
 enum status implicit_step(struct sim *sim, double dt, bool (*take)(struct sim *sim, double h),
                           struct error *err)
 {
-    const unsigned whole = 1u << HALVINGS_MAX; /* in parts of dt that are not halved any more */
+    const unsigned whole = GUARD_PARTS_MAX; /* in parts of dt that are not halved any more */
     unsigned place = 0, size = whole;
     while (place < whole) {
-        remember_start(sim);
-        if (!is_too_dear(sim) && take(sim, dt * size / whole) && (size == 1 || !has_turned(sim))) {
+        vector_keep_state(sim, IMPLICIT_START_POSITION);
+        if (!is_too_dear(sim) && take(sim, dt * size / whole) &&
+            (size <= whole / TURN_PARTS || !has_turned(sim))) {
             place += size;
             while (place % (2 * size) == 0 && place < whole)
                 size *= 2; /* what was difficult is over */
-            continue;
+        } else {
+            vector_return_to(sim, IMPLICIT_START_POSITION);
+            if (size == 1 || is_too_dear(sim))
+                return give_up(sim, dt, err);
+            if (size == whole)
+                begin_parts(sim);
+            size /= 2;
         }
-        return_to_start(sim);
-        if (size == 1 || is_too_dear(sim))
-            return give_up(sim, dt, err);
-        size /= 2;
+        if (place < whole && !sim_goes_on(sim))
+            return end_half_way(sim, err);
     }
     return STATUS_OK;
 }

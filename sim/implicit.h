@@ -22,6 +22,8 @@ enum {
     IMPLICIT_BASE_VELOCITY, /* with S in its scalars */
     IMPLICIT_START_POSITION,
     IMPLICIT_START_VELOCITY, /* of the step, or of the part of it that is being taken; with its scalars */
+    IMPLICIT_WHOLE_POSITION,
+    IMPLICIT_WHOLE_VELOCITY, /* of the step, where it is taken in parts; likewise */
     IMPLICIT_RHS,
     IMPLICIT_CHANGE,
     IMPLICIT_VECTORS
@@ -35,6 +37,7 @@ struct implicit {
     double worst;             /* residual over mass of the point whose equation was furthest from solved, */
     uint32_t worst_point;     /* when it was given up last */
     bool is_linear;           /* that was because a linear system was not solved */
+    bool told;                /* that steps are taken in parts */
 };
 enum status implicit_open(struct sim *sim, struct error *err);
 void implicit_close(struct sim *sim);
@@ -58,8 +61,9 @@ void implicit_extrapolate(struct sim *sim, double w);
 void implicit_base(struct sim *sim, double ahead);
 
 /* Takes a step of dt by take(), which moves the state from where it is over h, or returns false; what it does
- * not get over is halved, down to 1/1024 of dt. Error: STATUS_DIVERGED, with the time and the point that is
- * furthest from a solution. */
+ * not get over is halved, down to 1/GUARD_PARTS_MAX of dt. Errors: STATUS_DIVERGED, with the time and
+ * the point that is furthest from a solution; STATUS_INTERRUPTED between two parts, by sim->goes_on, the
+ * state as before the step. */
 enum status implicit_step(struct sim *sim, double dt, bool (*take)(struct sim *sim, double h),
                           struct error *err);
 

@@ -211,8 +211,8 @@ struct sim {
      * that remember begin anew. */
     bool changed;
 
-    /* Asked within what may be long in a step, the trials of auto; false ends it with STATUS_INTERRUPTED, as
-     * it was before. NULL: nobody asks. */
+    /* Asked within what may be long in a step, the trials of auto and what a method takes in parts; false
+     * ends it with STATUS_INTERRUPTED, as it was before. NULL: nobody asks. */
     bool (*goes_on)(void);
 
     /* What a method that chooses its own steps goes by and leaves. */

@@ -10,23 +10,12 @@
 static const double derivatives_work = 5.7, iteration_work = 3.5, move_work = 0.15;
 
 /* The rows of sim->scratch, from the trial's first on. */
-enum { POSITION, VELOCITY, COARSE };
-
-static void keep(struct sim *sim, int rows)
-{
-    vector_copy(sim, sim->scratch[rows + POSITION], sim->position);
-    vector_copy(sim, sim->scratch[rows + VELOCITY], sim->velocity);
-    for (uint32_t i = 0; i < sim->scalar_count; i++)
-        sim->scalar_scratch[rows][i] = sim->scalar[i];
-}
+enum { STATE, COARSE = 2 };
 
 /* The state as it was; whatever is remembered of other steps is not. */
 static void put_back(struct sim *sim, int rows)
 {
-    vector_copy(sim, sim->position, sim->scratch[rows + POSITION]);
-    vector_copy(sim, sim->velocity, sim->scratch[rows + VELOCITY]);
-    for (uint32_t i = 0; i < sim->scalar_count; i++)
-        sim->scalar[i] = sim->scalar_scratch[rows][i];
+    vector_return_to(sim, rows + STATE);
     sim->changed = true;
 }
 
@@ -82,7 +71,7 @@ struct trial_result trial_run(struct sim *sim, const struct integrator *method, 
     void *const before = sim->method;
     struct trial_result result = {.error = INFINITY};
     sim->method = own;
-    keep(sim, rows);
+    vector_keep_state(sim, rows + STATE);
     sim->changed = true;
     const uint64_t evaluations = sim->evaluations, iterations = iterations_of(sim, method);
     const uint64_t most = (uint64_t)(TRIAL_WORK_MAX / iteration_work) * steps;

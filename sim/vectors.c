@@ -24,6 +24,22 @@ void vector_copy(struct sim *sim, double (*to)[4], double (*from)[4])
     sim_each_part(sim, copy_part, &(struct operands){.y = to, .x = from});
 }
 
+void vector_keep_state(struct sim *sim, int row)
+{
+    vector_copy(sim, sim->scratch[row], sim->position);
+    vector_copy(sim, sim->scratch[row + 1], sim->velocity);
+    for (uint32_t i = 0; i < sim->scalar_count; i++)
+        sim->scalar_scratch[row + 1][i] = sim->scalar[i];
+}
+
+void vector_return_to(struct sim *sim, int row)
+{
+    vector_copy(sim, sim->position, sim->scratch[row]);
+    vector_copy(sim, sim->velocity, sim->scratch[row + 1]);
+    for (uint32_t i = 0; i < sim->scalar_count; i++)
+        sim->scalar[i] = sim->scalar_scratch[row + 1][i];
+}
+
 static void add_part(struct sim *sim, const struct sim_part *part, void *context)
 {
     (void)sim;

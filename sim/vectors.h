@@ -23,6 +23,11 @@ struct vector_term {
 /* to = from. */
 void vector_copy(struct sim *sim, double (*to)[4], double (*from)[4]);
 
+/* The state that methods move, places, speeds and scalars, into sim->scratch[row] and the next one; and back
+ * from there. */
+void vector_keep_state(struct sim *sim, int row);
+void vector_return_to(struct sim *sim, int row);
+
 /* y += factor x. */
 void vector_add(struct sim *sim, double (*y)[4], double factor, double (*x)[4]);
 

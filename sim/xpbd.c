@@ -13,17 +13,25 @@
  */
 #include "common/array.h"
 #include "common/threads.h"
+#include "sim/guard.h"
 #include "sim/kernels.h"
 #include "sim/methods.h"
+#include "sim/vectors.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 enum {
     SUBSTEPS = 8,
-    SUBSTEPS_MAX = 8192,
     COLOURS = 64,
-    BEFORE = 0 /* the scratch with the positions where a substep begins */
+};
+
+/* What is where in sim->scratch. */
+enum {
+    BEFORE, /* the positions where a substep begins */
+    START_POSITION,
+    START_VELOCITY, /* of the step, with its scalars */
+    VECTORS
 };
 
 struct xpbd {
@@ -222,15 +230,15 @@ static int count_substeps(const struct sim *sim, double dt)
 {
     int count = SUBSTEPS;
     while (stiffness_kept(sim, dt / count) < 0.5)
-        if ((count *= 2) > SUBSTEPS_MAX)
+        if ((count *= 2) > GUARD_PARTS_MAX)
             return 0;
     return count;
 }
 
-/* The largest step, by halves of dt, that SUBSTEPS_MAX are enough for. */
+/* The largest step, by halves of dt, that GUARD_PARTS_MAX are enough for. */
 static double largest_step(const struct sim *sim, double dt)
 {
-    while (stiffness_kept(sim, dt / SUBSTEPS_MAX) < 0.5)
+    while (stiffness_kept(sim, dt / GUARD_PARTS_MAX) < 0.5)
         dt /= 2;
     return dt;
 }
@@ -254,9 +262,17 @@ static enum status xpbd(struct sim *sim, double dt, struct error *err)
             err, STATUS_DIVERGED,
             "%s: at time %g xpbd would need more than %d substeps in a step of %g for these springs, "
             "dampers and masses; a time.step of %.3g would do, or backward-euler",
-            sim->scene->path, sim->time, SUBSTEPS_MAX, dt, largest_step(sim, dt));
-    for (int i = 0; i < count; i++)
+            sim->scene->path, sim->time, GUARD_PARTS_MAX, dt, largest_step(sim, dt));
+    const bool is_long = count > SUBSTEPS;
+    if (is_long)
+        vector_keep_state(sim, START_POSITION);
+    for (int i = 0; i < count; i++) {
+        if (is_long && !sim_goes_on(sim)) {
+            vector_return_to(sim, START_POSITION);
+            return error_set(err, STATUS_INTERRUPTED, "interrupted at %g s", sim->time);
+        }
         substep(sim, dt / count);
+    }
     return STATUS_OK;
 }
 
@@ -264,7 +280,7 @@ const struct integrator integrator_xpbd = {
     .name = "xpbd",
     .order = 1,
     .flags = INTEGRATOR_IMPLICIT | INTEGRATOR_SPRINGS_ONLY,
-    .vectors = 1,
+    .vectors = VECTORS,
     .oscillation_limit = INFINITY,
     .decay_limit = INFINITY,
     .outer_limit = 2 * SUBSTEPS, /* of symplectic Euler, in each substep */

@@ -271,7 +271,72 @@ static void steps_beyond_reason_are_solved_or_refused(void **state)
         }
 }
 
-/* Most springs so stiff that even 8192 substeps were not enough. */
+/* A skin so stiff (its fastest wave crosses an edge in some 1e-5 s) that over a 1024th of a step of 10 s no
+ * equation is solved. Explicit methods have such a step split in up to a million parts: implicit ones
+ * go as far, and say that they go on in parts. */
+static void a_step_is_solved_in_as_many_parts_as_explicit_methods_would_get(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"backward-euler", "bdf2"};
+    for (int m = 0; m < 2; m++) {
+        struct balloon b;
+        open_with(&b, names[m], 10,
+                  SETTINGS("balloons[0].pressure=0", "balloons[0].membrane.thickness=0.45",
+                           "balloons[0].membrane.shear_modulus=1e6", "balloons[0].gas.ambient=10",
+                           "balloons[0].gas.pump=1.2"));
+        steps(&b, 2);
+        assert_int_equal(b.sim.news_count, 1);
+        assert_string_equal(b.sim.news[0].effect, names[m]);
+        close_balloon(&b);
+    }
+}
+
+static void assert_same_state(const struct sim *a, const struct sim *b)
+{
+    assert_memory_equal(a->position, b->position, a->point_count * sizeof *a->position);
+    assert_memory_equal(a->velocity, b->velocity, a->point_count * sizeof *a->velocity);
+    assert_memory_equal(a->scalar, b->scalar, a->scalar_count * sizeof *a->scalar);
+}
+
+static int questions;
+
+static bool until_the_second_question(void)
+{
+    return ++questions < 2;
+}
+
+/* Whoever ends a step between two of its parts finds it as it began, and goes on later to the same bits. */
+static void a_step_in_parts_that_is_ended_half_way_has_not_begun(void **state)
+{
+    (void)state;
+    for (int m = 0; m < IMPLICIT_COUNT; m++) {
+        struct balloon b, whole;
+        struct error err = {0};
+        char name[64];
+        snprintf(name, sizeof name, "time.integrator=%s", implicit_names[m]);
+        const char *const *changes = SETTINGS(name, "time.step=1", "balloons[0].pressure=0",
+                                              "balloons[0].threshold=1e300", "balloons[0].spring=1e4",
+                                              "balloons[0].gas.ambient=10", "balloons[0].gas.fill=1e3",
+                                              "balloons[0].gas.pump=10", "time.guard=off");
+        open_balloon(&b, 1, changes);
+        open_balloon(&whole, 1, changes);
+        questions = 0;
+        b.sim.goes_on = until_the_second_question;
+        enum status status = sim_step(&b.sim, &err);
+        for (; !status && whole.sim.steps < 5; status = sim_step(&b.sim, &err))
+            steps(&whole, 1); /* until one is taken in parts */
+        assert_refused(status, STATUS_INTERRUPTED, "interrupted", &err);
+        assert_same_state(&b.sim, &whole.sim);
+        b.sim.goes_on = NULL;
+        steps(&b, 2);
+        steps(&whole, 2);
+        assert_true(sim_hash(&b.sim) == sim_hash(&whole.sim));
+        close_balloon(&b);
+        close_balloon(&whole);
+    }
+}
+
+/* Most springs so stiff that even a million substeps were not enough. */
 static void xpbd_says_what_step_it_can_take(void **state)
 {
     (void)state;
@@ -383,6 +448,8 @@ int main(void)
         cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
         cmocka_unit_test(several_groups_of_points_give_the_same_bits_on_several_threads),
         cmocka_unit_test(steps_beyond_reason_are_solved_or_refused),
+        cmocka_unit_test(a_step_is_solved_in_as_many_parts_as_explicit_methods_would_get),
+        cmocka_unit_test(a_step_in_parts_that_is_ended_half_way_has_not_begun),
         cmocka_unit_test(xpbd_says_what_step_it_can_take),
         cmocka_unit_test(what_has_no_solution_is_refused_with_time_and_point),
         cmocka_unit_test(the_solver_solves_what_is_not_symmetric),
