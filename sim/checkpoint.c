@@ -80,8 +80,8 @@ static void write_run(FILE *stream, const struct checkpoint_run *run)
 
 static void write_state(FILE *stream, struct sim *sim)
 {
-    struct sim_block blocks[SIM_BLOCKS_MAX];
-    const size_t count = sim_blocks(sim, blocks);
+    size_t count;
+    const struct sim_block *blocks = sim_blocks(sim, &count);
     for (size_t i = 0; i < count; i++) {
         unsigned char title[4 + 64];
         const size_t length = strnlen(blocks[i].name, 64);

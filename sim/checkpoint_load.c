@@ -186,9 +186,8 @@ static enum status refuse_block(const struct chunk *chunk, const char *name, con
 /* Fills the state with the DATA chunks that come next. */
 static enum status read_blocks(struct reader *reader, struct error *err)
 {
-    struct sim_block blocks[SIM_BLOCKS_MAX];
-    const size_t count = sim_blocks(reader->sim, blocks);
-    size_t filled = 0;
+    size_t count, filled = 0;
+    const struct sim_block *blocks = sim_blocks(reader->sim, &count);
     while (comes_next(reader, "DATA")) {
         struct chunk chunk;
         const unsigned char *data = NULL;

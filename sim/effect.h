@@ -71,6 +71,7 @@ struct effect {
     const char *source;
 };
 extern const struct effect *const effects[]; /* NULL-terminated */
+enum { EFFECT_BLOCKS_MAX = 24 };             /* of one hook */
 
 /* Whether the scene, or a balloon of it, calls for it; how many it calls for. */
 bool effect_is_wanted(const struct effect *effect, const struct scene *scene);

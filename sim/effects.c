@@ -1,6 +1,7 @@
 #include "sim/effects.h"
 #include "common/array.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 const struct effect *const effects[] = {
@@ -217,9 +218,12 @@ size_t effects_blocks(struct sim *sim, struct sim_block *blocks)
     size_t count = 0;
     for (int phase = 0; phase < EFFECT_PHASES; phase++)
         for (size_t i = 0; i < sim->hook_count[phase]; i++)
-            if (sim->hooks[phase][i].effect->blocks)
-                count += sim->hooks[phase][i].effect->blocks(sim, sim->hooks[phase][i].balloon,
-                                                             &blocks[count]);
+            if (sim->hooks[phase][i].effect->blocks) {
+                const struct effect_hook *hook = &sim->hooks[phase][i];
+                const size_t more = hook->effect->blocks(sim, hook->balloon, &blocks[count]);
+                assert(more <= EFFECT_BLOCKS_MAX);
+                count += more;
+            }
     return count;
 }
 

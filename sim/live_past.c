@@ -80,8 +80,8 @@ static void keep_limits(struct live_past *past)
 
 enum status live_past_add(struct live_past *past, struct sim *sim, struct live_marks marks, struct error *err)
 {
-    struct sim_block blocks[SIM_BLOCKS_MAX];
-    const size_t count = sim_blocks(sim, blocks);
+    size_t count;
+    const struct sim_block *blocks = sim_blocks(sim, &count);
     struct live_frame frame = {.marks = marks, .chunk = array_new(count, sizeof(struct live_chunk *))};
     bool room = frame.chunk && ARRAY_RESERVE(past, 1);
     const struct live_frame *before = past->count ? &past->items[past->count - 1] : NULL;
@@ -106,8 +106,8 @@ void live_past_restore(const struct live_past *past, size_t i, struct sim *sim)
 {
     const struct live_frame *frame = &past->items[i];
     for (int round = 0; round < 2; round++) {
-        struct sim_block blocks[SIM_BLOCKS_MAX];
-        const size_t count = sim_blocks(sim, blocks);
+        size_t count;
+        const struct sim_block *blocks = sim_blocks(sim, &count);
         for (size_t k = 0; k < count && k < frame->chunk_count; k++) {
             const struct live_chunk *chunk = frame->chunk[k];
             const size_t size = chunk->size < blocks[k].size ? chunk->size : blocks[k].size;

@@ -34,6 +34,7 @@ void sim_clear(struct sim *sim)
                       sim->current_spring_const,
                       sim->piece,
                       sim->piece_area,
+                      sim->blocks,
                       sim->triangle_point,
                       sim->triangle_active,
                       sim->balloons,
@@ -291,6 +292,8 @@ static enum status build(struct sim *sim, const struct mesh *meshes, unsigned wo
         status = guard_open(sim, err);
     if (!status && sim->integrator->open)
         status = sim->integrator->open(sim, err);
+    if (!status)
+        status = state_open(sim, err);
     return status;
 }
 

@@ -52,7 +52,7 @@ struct sim_block {
     void *data;
     size_t size; /* bytes */
 };
-enum { SIM_BLOCKS_MAX = 256, SIM_VECTORS_MAX = 16 };
+enum { SIM_VECTORS_MAX = 16 };
 
 /* One balloon's share of the tables, and the numbers that all its points and edges have in common. */
 struct sim_balloon {
@@ -238,9 +238,10 @@ struct sim {
     struct sim_news news[SIM_NEWS_MAX]; /* [news_count] since somebody set it to 0; later ones are lost */
     size_t news_count;
 
-    uint32_t *piece;    /* [edge_count] for sim_measure(): an edge of the same piece */
-    double *piece_area; /* [edge_count] likewise: of the piece, at its root */
-    size_t bytes;       /* of all the arrays here */
+    uint32_t *piece;          /* [edge_count] for sim_measure(): an edge of the same piece */
+    double *piece_area;       /* [edge_count] likewise: of the piece, at its root */
+    size_t bytes;             /* of all the arrays here */
+    struct sim_block *blocks; /* for sim_blocks() */
 };
 
 /* Reads the mesh of each balloon of a checked scene, repairs and connects it. meshes and reports have
@@ -303,9 +304,12 @@ static inline void sim_break_edge(struct sim *sim, uint32_t edge)
     sim->broken++;
 }
 
-/* Lists all that the future depends on (state.c): equal blocks, equal futures. Returns how many there are.
- * The addresses stay until sim_clear(). */
-size_t sim_blocks(struct sim *sim, struct sim_block blocks[SIM_BLOCKS_MAX]);
+/* Lists all that the future depends on (state.c): equal blocks, equal futures. The list is sim's, made anew
+ * by each call; the blocks' addresses stay until sim_clear(). */
+const struct sim_block *sim_blocks(struct sim *sim, size_t *count);
+
+/* Makes room for that list, once everything else is there. STATUS_NO_MEMORY. */
+enum status state_open(struct sim *sim, struct error *err);
 
 /* What follows from blocks that were put back (sim_blocks()): false, and nothing done, where they are
  * no state of a torn skin. */

@@ -1,4 +1,5 @@
 /* What the future depends on: the one list that checkpoints, rewinding, trial steps and the hash go by. */
+#include "common/array.h"
 #include "common/hash.h"
 #include "common/vec3.h"
 #include "sim/fracture.h"
@@ -51,11 +52,22 @@ static size_t state_blocks(struct sim *sim, struct sim_block *blocks)
     return count;
 }
 
-size_t sim_blocks(struct sim *sim, struct sim_block blocks[SIM_BLOCKS_MAX])
+enum status state_open(struct sim *sim, struct error *err)
 {
-    size_t count = state_blocks(sim, blocks);
+    enum { OWN_BLOCKS_MAX = 64 }; /* the method's among them */
+    size_t room = OWN_BLOCKS_MAX;
+    for (int phase = 0; phase < EFFECT_PHASES; phase++)
+        room += sim->hook_count[phase] * EFFECT_BLOCKS_MAX;
+    sim->blocks = array_new(room, sizeof *sim->blocks);
+    return sim->blocks ? STATUS_OK : error_no_memory(err, "the list of the state");
+}
+
+const struct sim_block *sim_blocks(struct sim *sim, size_t *number)
+{
+    struct sim_block *blocks = sim->blocks;
+    size_t count = *number = state_blocks(sim, blocks);
     if (!sim->ledger.on)
-        return count;
+        return blocks;
     const uint32_t first = sim->ledger.first;
     blocks[count++] = (struct sim_block){"ledger", &sim->ledger.account, sizeof sim->ledger.account};
     blocks[count++] = (struct sim_block){"ledger's scalars", &sim->scalar[first],
@@ -63,7 +75,8 @@ size_t sim_blocks(struct sim *sim, struct sim_block blocks[SIM_BLOCKS_MAX])
     if (sim->integrator->vectors > 0) /* a method may remember their rates */
         blocks[count++] = (struct sim_block){"ledger's rates", &sim->scalar_scratch[0][first],
                                              (sim->scalar_count - first) * sizeof *sim->scalar};
-    return count;
+    *number = count;
+    return blocks;
 }
 
 bool sim_restored(struct sim *sim)
@@ -81,10 +94,9 @@ bool sim_restored(struct sim *sim)
 
 uint64_t sim_hash(struct sim *sim)
 {
-    struct sim_block blocks[SIM_BLOCKS_MAX];
-    const size_t count = state_blocks(sim, blocks); /* whether it is watched makes no difference */
+    const size_t count = state_blocks(sim, sim->blocks); /* whether it is watched makes no difference */
     uint64_t hash = HASH_START;
     for (size_t i = 0; i < count; i++)
-        hash = hash_bytes(hash, blocks[i].data, blocks[i].size);
+        hash = hash_bytes(hash, sim->blocks[i].data, sim->blocks[i].size);
     return hash;
 }

@@ -189,6 +189,47 @@ static void effects_on_one_balloon_leave_the_other_as_if_it_were_alone(void **st
     close_balloon(&alone);
 }
 
+static uint64_t hash_of_crowd(unsigned workers)
+{
+    enum { CROWD = 40 };
+    static const char *const keys[] = {"mesh=sphere",    "membrane.thickness=0.45", "gas.ambient=10",
+                                       "gas.fill=1.5",   "fracture.strength=1.1",   "string.weight=1",
+                                       "pins.until=0.1", "bending.stiffness=1",     "pressure=0",
+                                       "rip.at=0.02"};
+    struct scene scene;
+    struct mesh meshes[CROWD];
+    struct sim sim = {0};
+    struct error err = {0};
+    assert_ok(scene_from_mesh("sphere", &scene, &err), &err);
+    for (int b = 0; b < CROWD; b++) {
+        char key[80];
+        for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
+            snprintf(key, sizeof key, "balloons[%d].%s", b, keys[i]);
+            assert_ok(scene_set(&scene, key, &err), &err);
+        }
+        snprintf(key, sizeof key, "balloons[%d].position=[%d, 0, 0]", b, 200 * b);
+        assert_ok(scene_set(&scene, key, &err), &err);
+        shape_icosphere(1, &meshes[b]);
+    }
+    assert_ok(scene_check(&scene, &err), &err);
+    assert_ok(sim_open(&sim, &scene, meshes, workers, &err), &err);
+    for (int i = 0; i < 8; i++)
+        assert_ok(sim_step(&sim, &err), &err);
+    const uint64_t hash = sim_hash(&sim);
+    sim_clear(&sim);
+    for (int b = 0; b < CROWD; b++)
+        mesh_clear(&meshes[b]);
+    scene_clear(&scene);
+    return hash;
+}
+
+/* Each with blocks of its own, and its share of the state. */
+static void as_many_balloons_as_one_likes_have_a_state(void **state)
+{
+    (void)state;
+    assert_true(hash_of_crowd(1) == hash_of_crowd(3));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -197,6 +238,7 @@ int main(void)
         cmocka_unit_test(a_block_without_magnitude_changes_no_bit),
         cmocka_unit_test(what_wakes_and_goes_to_sleep_says_so),
         cmocka_unit_test(effects_on_one_balloon_leave_the_other_as_if_it_were_alone),
+        cmocka_unit_test(as_many_balloons_as_one_likes_have_a_state),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
