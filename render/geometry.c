@@ -21,6 +21,7 @@ struct building {
     bool shared;           /* points have vertices of their own: smooth normals, no facets */
     bool is_latex;
     struct geometry_latex latex;
+    double closed; /* 1: nothing of the skin is torn; as latex measures it, or by its triangles */
     uint16_t colour[4];
 };
 
@@ -53,6 +54,14 @@ static float gloss_of(const struct building *b, uint32_t t)
 static bool is_drawn(const struct render_skin *skin, uint32_t t)
 {
     return !skin->active || skin->active[t];
+}
+
+static bool is_whole(const struct render_skin *skin)
+{
+    uint32_t t = 0;
+    while (t < skin->mesh->triangle_count && is_drawn(skin, t))
+        t++;
+    return t == skin->mesh->triangle_count;
 }
 
 static enum status check_triangle(const struct building *b, uint32_t t, struct error *err)
@@ -203,6 +212,27 @@ static uint32_t nearness_of(const double square_distance)
     return ~bits;
 }
 
+/* The square distance by which a triangle is ordered. Of torn skin that of its middle; of closed skin, which
+ * is seen from outside, of its nearest corner where its outside is seen, and of its farthest where its inside
+ * is: what lies close behind its outside, as where it is pressed flat, is its inside, and by the middles it
+ * would show through at random. */
+static double place_in_order(double corner[3][3], double closed)
+{
+    double a[3], b[3], normal[3], middle[3];
+    vec3_sub(corner[1], corner[0], a);
+    vec3_sub(corner[2], corner[0], b);
+    vec3_cross(a, b, normal);
+    const bool outside = vec3_dot(normal, corner[0]) < 0;
+    double end = vec3_dot(corner[0], corner[0]);
+    for (int k = 1; k < 3; k++) {
+        const double square = vec3_dot(corner[k], corner[k]);
+        end = outside ? fmin(end, square) : fmax(end, square);
+    }
+    for (int i = 0; i < 3; i++)
+        middle[i] = (corner[0][i] + corner[1][i] + corner[2][i]) / 3;
+    return closed * end + (1 - closed) * vec3_dot(middle, middle);
+}
+
 /* Widens what is in sight by a corner; one beside or behind the eye may be seen anywhere. */
 static void see_corner(struct geometry *g, const float position[3])
 {
@@ -223,17 +253,17 @@ static void add_triangle(struct building *b, uint32_t t)
     if (!facet_normal(b, t, facet))
         return;
     struct geometry_triangle triangle;
-    double middle[3] = {0};
+    double corner[3][3];
     bool opaque = true;
     for (int k = 0; k < 3; k++) {
         triangle.vertex[k] = corner_vertex(b, t, k, facet);
         const struct geometry_vertex *vertex = &g->vertices.items[triangle.vertex[k]];
         opaque = opaque && vertex->film >= (b->is_latex ? latex_opaque : opaque_from);
         for (int i = 0; i < 3; i++)
-            middle[i] += vertex->position[i] / 3.0;
+            corner[k][i] = (double)vertex->position[i];
         see_corner(g, vertex->position);
     }
-    triangle.nearness = nearness_of(vec3_dot(middle, middle));
+    triangle.nearness = nearness_of(place_in_order(corner, b->closed));
     if (opaque)
         g->opaque.items[g->opaque.count++] = triangle;
     else
@@ -262,6 +292,7 @@ static enum status add_skin(struct building *b, struct error *err)
         return error_no_memory(err, "the triangles to draw");
     if (b->is_latex)
         latex_measure(&b->latex, b->skin, g->fans.items);
+    b->closed = b->is_latex ? (double)b->latex.closed : is_whole(b->skin);
     b->colour[3] = (uint16_t)lrintf(b->latex.closed * 65535);
     b->first_vertex = (uint32_t)g->vertices.count;
     average_at_points(b);

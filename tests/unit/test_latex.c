@@ -238,6 +238,37 @@ static void lists_and_peeling_agree_and_sorting_nearly(void **state)
     free_spheres(&s);
 }
 
+/* Its inside is as near to the eye as its outside. Ordered by their middles 4 % of the pixels were wrong;
+ * what is left are outlines, a pixel wide. */
+static void skin_pressed_flat_shows_its_outside(void **state)
+{
+    (void)state;
+    struct mesh flat = sphere_new(40, 40);
+    for (uint32_t p = 0; p < flat.point_count; p++) {
+        const double thin = 0.002 * flat.position[p][1], deep = flat.position[p][2];
+        flat.position[p][1] = 0.9 * thin - 0.5 * deep;
+        flat.position[p][2] = 0.5 * thin + 0.9 * deep;
+    }
+    float opacity[2 * 40 * 40];
+    for (size_t i = 0; i < sizeof opacity / sizeof *opacity; i++)
+        opacity[i] = 0.95f;
+    const struct render_skin skin = {.mesh = &flat,
+                                     .opacity = opacity,
+                                     .rest_opacity = 0.95f,
+                                     .colour = {0.8f, 0.2f, 0.1f},
+                                     .facets = true};
+    for (enum render_style style = RENDER_PAPER; style <= RENDER_LATEX; style++) {
+        struct render_view sort = square_view(RENDER_SORT), peel = square_view(RENDER_PEEL);
+        sort.style = peel.style = style;
+        struct image sorted = drawn(&sort, &skin, 1), peeled = drawn(&peel, &skin, 1);
+        assert_true(difference(&sorted, &peeled) < 0.01);
+        assert_true(difference(&sorted, &peeled) < 0.01);
+        image_clear(&sorted);
+        image_clear(&peeled);
+    }
+    sphere_free(&flat);
+}
+
 /* 40 layers on every pixel, twenty times what the lists first have room for; each is deep
  * enough to be told from 39. */
 static void lists_grow_with_their_layers(void **state)
@@ -328,6 +359,7 @@ int main(void)
         cmocka_unit_test(stretched_latex_shines_more),
         cmocka_unit_test(a_torn_skin_loses_its_inner_light),
         cmocka_unit_test(lists_and_peeling_agree_and_sorting_nearly),
+        cmocka_unit_test(skin_pressed_flat_shows_its_outside),
         cmocka_unit_test(lists_grow_with_their_layers),
         cmocka_unit_test(several_samples_smooth_outlines),
         cmocka_unit_test(large_latex_pictures_have_no_seam),
