@@ -168,7 +168,7 @@ static void note(struct course *whole, struct course *rest, struct effect_cost_t
     struct sim *w = &whole->sim, *r = &rest->sim;
     row->steps = r->steps;
     row->seconds = left / (double)r->steps;
-    row->share = 1 - left / all;
+    row->share = left > all ? all / left - 1 : 1 - left / all;
     row->bytes = (double)w->bytes - (double)r->bytes;
     row->first_break = rest->first_break;
     row->pieces = sim_measure(r).pieces;
@@ -249,8 +249,7 @@ enum status effect_cost_measure(const struct scene *scene, const struct mesh *me
     return status;
 }
 
-/* Whether the times of the first break differ by more than one in a hundred. */
-static bool breaks_otherwise(const struct effect_cost_table *table, const struct effect_cost_row *row)
+bool effect_cost_breaks_otherwise(const struct effect_cost_table *table, const struct effect_cost_row *row)
 {
     const double a = table->first_break, b = row->first_break;
     return isfinite(a) != isfinite(b) || (isfinite(a) && fabs(a - b) > 0.01 * a);
@@ -260,12 +259,13 @@ static void say_change(const struct effect_cost_table *table, const struct effec
                        size_t size)
 {
     const double most = fmax(row->position, fmax(row->volume, row->pressure));
-    if (breaks_otherwise(table, row) && isinf(row->first_break))
+    const bool otherwise = effect_cost_breaks_otherwise(table, row);
+    if (otherwise && isinf(row->first_break))
         snprintf(text, size, "without it nothing breaks (with it at %.3g s): you need it",
                  table->first_break);
-    else if (breaks_otherwise(table, row) && isinf(table->first_break))
+    else if (otherwise && isinf(table->first_break))
         snprintf(text, size, "without it the skin breaks at %.3g s: you need it", row->first_break);
-    else if (breaks_otherwise(table, row))
+    else if (otherwise)
         snprintf(text, size, "the skin first breaks at %.3g s, and without it at %.3g s: you need it",
                  table->first_break, row->first_break);
     else if (most == 0 && row->pieces == table->pieces)
@@ -282,6 +282,15 @@ static void say_change(const struct effect_cost_table *table, const struct effec
                  row->position, 100 * row->volume, 100 * row->pressure);
 }
 
+/* Times are as good as a hundredth. */
+static void say_share(double share, char *text, size_t size)
+{
+    if (share < -0.01)
+        snprintf(text, size, "saves %.2g %%", -100 * share);
+    else
+        snprintf(text, size, "%.2g %%", 100 * fmax(share, 0));
+}
+
 static void say_steps(const struct effect_cost_table *table, const struct effect_cost_row *row, char *text,
                       size_t size)
 {
@@ -293,7 +302,7 @@ static void say_steps(const struct effect_cost_table *table, const struct effect
 void effect_cost_say(const struct effect_cost_table *table, const struct effect_cost_row *row, char *text,
                      size_t size)
 {
-    char change[256], steps[64];
+    char change[256], steps[64], share[32];
     const char *name = row->effect->name;
     if (row->diverged)
         snprintf(text, size, "%s: you need it; without it: %s", name, row->refused);
@@ -302,7 +311,8 @@ void effect_cost_say(const struct effect_cost_table *table, const struct effect_
     else {
         say_change(table, row, change, sizeof change);
         say_steps(table, row, steps, sizeof steps);
-        snprintf(text, size, "%s%s%s: %.2g %% of the time%s, %s", name, row->instead ? " in place of " : "",
-                 row->instead ? row->instead : "", 100 * row->share, steps, change);
+        say_share(row->share, share, sizeof share);
+        snprintf(text, size, "%s%s%s: %s of the time%s, %s", name, row->instead ? " in place of " : "",
+                 row->instead ? row->instead : "", share, steps, change);
     }
 }

@@ -38,8 +38,10 @@ struct effect_cost_row {
     bool diverged;       /* the latter */
     const char *instead; /* what did its work; NULL: nothing */
     double seconds;      /* a step, without it */
-    double share;        /* of the whole's time that is its own; below 0: without it the run takes longer */
-    double bytes;        /* that are its own */
+    /* Of the whole's time that is its own; below 0: of the time of the run without it, which takes longer,
+     * what it saves. */
+    double share;
+    double bytes;                      /* that are its own */
     double position, volume, pressure; /* largest changes: RMS in mean radii; relative to the largest */
     double first_break;                /* s, without it; INFINITY: nothing let go */
     uint64_t steps;
@@ -63,6 +65,10 @@ struct effect_cost_table {
 enum status effect_cost_measure(const struct scene *scene, const struct mesh *meshes,
                                 const struct effect_cost_options *options, struct effect_cost_table *table,
                                 struct error *err);
+
+/* Whether the skin first breaks at another time, by more than one in a hundred, or only with or without
+ * it. */
+bool effect_cost_breaks_otherwise(const struct effect_cost_table *table, const struct effect_cost_row *row);
 
 /* "drag: 3 % of the time, changes positions by 2e-06 radii: you may not need it". */
 void effect_cost_say(const struct effect_cost_table *table, const struct effect_cost_row *row, char *text,

@@ -241,6 +241,10 @@ static void after(struct sim *sim, struct sim_balloon *b)
         sim->changed = true;
         sim_tell(sim, b, "gas", "streams out of the neck");
     }
+    if (!memory->gone && !memory->torn_open && gas->holes.count > 0) {
+        memory->torn_open = 1;
+        sim_tell(sim, b, "gas", "streams out of a tear");
+    }
     if (!memory->gone && is_gone(gas))
         let_all_go(sim, b);
     if (!memory->gone && is_bound_outdated(gas))

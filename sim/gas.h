@@ -38,8 +38,8 @@ struct gas {
 
     struct gas_memory {
         double bound_volume, bound_pressure, bound_gauge; /* for which the guard's bound was found */
-        uint64_t gone, let_go,
-            neck_open; /* 1: nothing is left to press; pieces have fallen off; the neck has opened */
+        /* 1: nothing is left to press; pieces have fallen off; the neck has opened; so has a tear */
+        uint64_t gone, let_go, neck_open, torn_open;
     } memory;
 };
 

@@ -260,6 +260,7 @@ enum status sim_add_scalars(struct sim *sim, uint32_t count, uint32_t *first, st
         return error_no_memory(err, "the quantities that are integrated");
     *first = sim->scalar_count;
     sim->scalar_count += count;
+    sim->bytes += (3 + (size_t)sim->integrator->vectors) * count * sizeof *sim->scalar;
     return STATUS_OK;
 }
 

@@ -26,8 +26,8 @@ static void print_table(const void *context, FILE *stream)
     }
     fprintf(
         stream,
-        "# until %.4g s of %.4g; share: of the whole's time that the effect takes; seconds: a step on one core, "
-        "the least of %d goes; bytes: that it takes\n"
+        "# until %.4g s of %.4g; share: of the whole's time that the effect takes, or, below 0, of the time without it that it saves; "
+        "seconds: a step on one core, the least of %d goes; bytes: that it takes\n"
         "# position (RMS, in radii), volume and pressure (relative, with the air's where there is gas): by how much the answer is another without it, "
         "at the most, until something breaks\n",
         table->span, table->end, table->goes);
@@ -48,17 +48,26 @@ static double least_change(const struct effect_cost_table *table)
     return isfinite(least) ? fmax(1e-16, pow(10, floor(log10(least)) - 1)) : 1e-16;
 }
 
+/* Its name below a bar, with a star where the skin breaks otherwise without it. */
+static void write_label(const struct effect_cost_table *table, const struct effect_cost_row *row,
+                        char text[40])
+{
+    snprintf(text, 40, "%s%s", row->effect->name, effect_cost_breaks_otherwise(table, row) ? "*" : "");
+}
+
 /* Shares of the time, and beside them how much the answer changes. */
 static enum status draw(const void *context, const char *scene, const char *path, struct error *err)
 {
     const struct effect_cost_table *table = context;
     double share[EFFECT_COST_ROWS_MAX], change[EFFECT_COST_ROWS_MAX];
+    char text[EFFECT_COST_ROWS_MAX][40];
     const char *name[EFFECT_COST_ROWS_MAX];
     const double least = least_change(table);
     size_t count = 0;
     for (size_t i = 0; i < table->count; i++)
         if (!*table->rows[i].refused) {
-            name[count] = table->rows[i].effect->name;
+            write_label(table, &table->rows[i], text[count]);
+            name[count] = text[count];
             share[count] = 100 * table->rows[i].share;
             change[count++] = fmax(table->rows[i].position, least);
         }
@@ -67,10 +76,10 @@ static enum status draw(const void *context, const char *scene, const char *path
     const struct plot_series of_places = {
         .style = PLOT_BARS, .y = change, .label = name, .count = count, .colour = 2};
     const struct plot_panel panels[] = {{.title = "What each effect costs",
-                                         .y_label = "% of the time",
+                                         .y_label = "% of the time; below 0: that it saves",
                                          .series = &of_time,
                                          .series_count = 1},
-                                        {.title = "What changes without it",
+                                        {.title = "What changes without it; *: how the skin breaks, too",
                                          .y_label = "RMS change of positions, in radii",
                                          .log_y = true,
                                          .series = &of_places,

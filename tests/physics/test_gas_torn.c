@@ -27,6 +27,8 @@ static void a_hole_lets_it_out(void **state)
     const struct gas_look after = look(&b);
     assert_true(after.amount < before.amount);
     assert_near(after.amount, before.amount + after.brought, 1e-13 * before.amount);
+    assert_int_equal(sim->news_count, 1);
+    assert_string_equal(sim->news[0].text, "streams out of a tear");
     close_balloon(&b);
 }
 
