@@ -48,6 +48,7 @@ void command_note(const char *format, ...)
     va_list arguments;
     va_start(arguments, format);
     flockfile(stderr); /* the thread that watches over long work has its own to say */
+    progress_make_way();
     fprintf(stderr, "%s: ", command_name);
     vfprintf(stderr, format, arguments);
     fputc('\n', stderr);

@@ -54,12 +54,17 @@ void command_extension(struct argp_state *state, const char *option, const char 
 /* A number that fills its whole text ("1e-3", not "1e-3x", not ""). nan and inf are refused. */
 bool number_parse(const char *text, double *value);
 
-/* A bar with rate and time left on stderr, at most ten times a second, and only where stderr is a terminal.
- * Elsewhere work that takes long is not done without a word: after 20 s, 40 s, 80 s ... of which 10 s were
- * work, a note says how much is done and how long the rest takes at that pace, unless that is less than a
- * minute. The first update says where the work begins. */
-void progress_begin(const char *what, const char *unit, double total);
+/* A bar with rate and time left on stderr, at least once and at most ten times a second, where stderr is a
+ * terminal. Elsewhere work that takes long is not done without a word: after 5 s, of which 3 s were work, a
+ * note says what is done (`what`, as "meshing"), how large it is (`size`, in words, as "42 chips"), how much
+ * of it is done and how long the rest takes at that pace; others follow at some of its tenths, or after twice
+ * the time. None in the first 10 s is about a rest of less than 5. The first update says where the work
+ * begins. The texts are the caller's until progress_end(). */
+void progress_begin(const char *what, const char *size, const char *unit, double total);
 void progress_update(double done);
 void progress_end(void);
+
+/* For a line of text on stderr: takes the bar out of its way, until the next update. */
+void progress_make_way(void);
 
 #endif

@@ -200,8 +200,10 @@ static enum status carve(const struct options *options, struct work *work, struc
         status = chips_begin(&chips, work->tree.depth, &work->tree, err);
     else if (!status)
         chips_set_coefficients(&chips, &work->tree);
+    char size[64];
+    snprintf(size, sizeof size, "%zu chips", chips.count);
     chips.progress = progress_update;
-    progress_begin("carving", "chips", (double)chips.count);
+    progress_begin("carving", size, "chips", (double)chips.count);
     if (!status)
         status = chips_run(&work->tree, &chips, NULL, err);
     progress_end();

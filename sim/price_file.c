@@ -48,8 +48,13 @@ bool price_go_on(void *context, double done)
 static enum status measure(const struct price_kind *kind, const struct scene *scene,
                            const struct mesh *meshes, void *table, struct error *err)
 {
+    char size[96];
+    size_t triangles = 0;
+    for (size_t i = 0; i < scene->balloon_count; i++)
+        triangles += meshes[i].triangle_count;
+    snprintf(size, sizeof size, "many runs of %zu triangles, to %g s", triangles, scene->time.end);
     interrupt_watch();
-    progress_begin("pricing", "%", 100);
+    progress_begin("pricing", size, "%", 100);
     enum status status = kind->measure(scene, meshes, table, err);
     progress_end();
     if (status == STATUS_INTERRUPTED && interrupt_caught() == SIGTERM)

@@ -110,7 +110,9 @@ static enum status step_to_end(struct run *run, struct error *err)
     const double end = sim->scene->time.end, steps = end / sim->step;
     enum status status = outputs_show(&run->outputs, sim, err);
     run->began = run->kept = now();
-    progress_begin("inflating", "steps", steps);
+    char size[96];
+    snprintf(size, sizeof size, "%u triangles, to %g s in %.3g steps", sim->triangle_count, end, steps);
+    progress_begin("inflating", size, "steps", steps);
     progress_update(sim->time / end * steps);
     while (!status && !sim_at_end(sim)) {
         status = step(run, err);

@@ -216,6 +216,16 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     return 0;
 }
 
+/* Of work that a sculpture is put to. */
+static void begin_progress(const char *what, const struct octree *tree)
+{
+    static char size[96];
+    const size_t boxes = octree_leaf_count(tree);
+    snprintf(size, sizeof size, "%zu box%s in %d cells a side", boxes, boxes == 1 ? "" : "es",
+             1 << tree->depth);
+    progress_begin(what, size, "%", 100);
+}
+
 static void show_progress(void *context, double done)
 {
     (void)context;
@@ -290,7 +300,7 @@ static enum status price(const struct arguments *arguments, const struct octree 
     struct cost_table table;
     if (cost_check(arguments->cost, err))
         return err->status;
-    progress_begin("pricing", "%", 100);
+    begin_progress("pricing", tree);
     enum status status = surface_cost(tree, &arguments->options, &table, err);
     progress_end();
     if (status != STATUS_OK)
@@ -314,7 +324,7 @@ static enum status make(struct arguments *arguments, const struct octree *tree, 
         return err->status;
     if (!arguments->output && !arguments->info && !arguments->render)
         return STATUS_OK;
-    progress_begin("meshing", "%", 100);
+    begin_progress("meshing", tree);
     enum status status = surface_make(tree, &arguments->options, &mesh, &stats, err);
     progress_end();
     if (status != STATUS_OK)
