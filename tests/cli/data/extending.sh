@@ -10,7 +10,7 @@ balloon-sculpt -q --depth 1 -o cube.oct
 balloon-surface -q cube.oct --cube-size 0.3 -o cube.ply
 
 mkdir copy
-for part in meson.build common render surface sim sculpt data tests; do
+for part in meson.build meson_options.txt common render surface sim sculpt data tests; do
     cp -r "$source_root/$part" copy
 done
 for file in sim/effect_swirl.c sim/rk3.c; do
