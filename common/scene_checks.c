@@ -62,7 +62,7 @@ static enum status check_no_gas(const struct scene *scene, size_t number, struct
         const struct scene_schedule *entry = &scene->schedule[i];
         if ((changes(entry, "pump", number) || changes(entry, "pump_until", number)) &&
             (entry->balloon >= 0 || !has_gas(scene)))
-            return scene_contradiction(scene, number, "gas", 0, err,
+            return scene_contradiction(scene, number, "gas", entry->line, err,
                                        "schedule[%zu] turns its pump, but there is no gas; give "
                                        "gas = { ambient = ... }",
                                        i);

@@ -36,6 +36,12 @@ enum status scene_refuse_name(const struct scene_source *source, const config_se
                               const struct scene_block *block, struct error *err)
 {
     const char *owner = block ? block->name : "", *place = place_of(name);
+    if (place && !strcmp(owner, "schedule"))
+        return scene_refuse(
+            source, at, err,
+            "`%s` is a block, which no schedule changes; --help-scene marks the keys that can "
+            "change, as in { at = 1; threshold = 3; }",
+            name);
     if (place)
         return scene_refuse(source, at, err, "the block `%s` %s", name, place);
     struct spelling guess = spelling_of(name);
@@ -134,8 +140,8 @@ static enum status read_pairs(const struct scene_field *field, const config_sett
     if (!row)
         return error_no_memory(err, field->key);
     for (int i = 0; i < count; i++) {
-        enum status status = read_row(field, config_setting_get_elem(value, (unsigned)i), 2,
-                                      "(height, factor)", source, row[i], err);
+        enum status status = read_row(field, config_setting_get_elem(value, (unsigned)i), 2, "(a, b)", source,
+                                      row[i], err);
         if (status) {
             free(row);
             return status;

@@ -1,5 +1,6 @@
 #include "common/spelling.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 /* Levenshtein's distance, for names short enough. */
@@ -24,6 +25,16 @@ static size_t distance_of(const char *a, const char *b)
     return row[length];
 }
 
+/* Of names one of which is a part of the other, as density is of air_density, a slip of two letters. */
+static size_t distance_or_part(const char *wrong, const char *name)
+{
+    enum { SHORTEST = 4, PART = 2 };
+    const size_t distance = distance_of(wrong, name);
+    const bool part = strlen(wrong) >= SHORTEST && strlen(name) >= SHORTEST &&
+                      (strstr(name, wrong) || strstr(wrong, name));
+    return part && distance > PART ? PART : distance;
+}
+
 struct spelling spelling_of(const char *wrong)
 {
     return (struct spelling){wrong, NULL, strlen(wrong) / 2 + 1};
@@ -31,7 +42,7 @@ struct spelling spelling_of(const char *wrong)
 
 void spelling_consider(struct spelling *guess, const char *name)
 {
-    const size_t distance = distance_of(guess->wrong, name);
+    const size_t distance = distance_or_part(guess->wrong, name);
     if (distance < guess->distance) {
         guess->nearest = name;
         guess->distance = distance;

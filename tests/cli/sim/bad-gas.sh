@@ -36,6 +36,21 @@ stderr_has 'bad.cfg:2: balloons\[0\].bending: time.integrator "xpbd" moves sprin
 scene '} ); needles = ( { velocity = [0.0, -1.0, 0.0];'
 expect 1 balloon-sim bad.cfg --check
 stderr_has 'bad.cfg:2: needles\[0\] names no point; give from'
+scene '} ); schedule = ( { at = 1.0; pump = 2.0;'
+expect 1 balloon-sim bad.cfg --check
+stderr_has 'bad.cfg:2: balloons\[0\].gas: schedule\[0\] turns its pump, but there is no gas'
+scene 'gas = { ambient = 10; }; } ); schedule = ( { at = 1.0; pressure = 2.0;'
+expect 1 balloon-sim bad.cfg --check
+stderr_has 'bad.cfg:2: balloons\[0\].gas: the gas makes the pressure, which schedule\[0\] cannot change; let it change pump'
+scene '} ); schedule = ( { at = 1.0; gas = { pump = 2.0; };'
+expect 1 balloon-sim bad.cfg --check
+stderr_has 'bad.cfg:2: `gas` is a block, which no schedule changes; .*keys that can change'
+scene 'membrane = { thickness = 0.3; ogden = ( (1.0, 2.0, 3.0) ); };'
+expect 1 balloon-sim bad.cfg --check
+stderr_has 'bad.cfg:2: ogden must be 2 numbers: \(a, b\)'
+scene '} ); drag = { density = 1.0; }; needles = ( { from = [0.0, 99.0, 0.0];'
+expect 1 balloon-sim bad.cfg --check
+stderr_has 'bad.cfg:2: unknown key `density` in drag \(did you mean `air_density`'
 # Gas needs a skin that holds it.
 ply open.ply '0 0 0
 1 0 0
