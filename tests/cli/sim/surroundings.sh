@@ -1,5 +1,5 @@
 # Ground, obstacles, needles and contact: what cannot be is refused with its line; what is there runs to the same bits on any threads.
-cp "$PROGRAMS/data/sphere.ply" "$PROGRAMS/data/pressed.cfg" .
+cp "$PROGRAMS/data/sphere.ply" "$PROGRAMS/data/ball.ply" "$PROGRAMS/data/pressed.cfg" .
 printf 'balloons = ( { mesh = "sphere.ply"; } );\nneedles = (\n  { at = 1.0; }\n);\n' >needle.cfg
 refused 1 'needle.cfg:3: needles\[0\] names no point; give from' balloon-sim needle.cfg
 printf 'balloons = ( { mesh = "sphere.ply"; } );\nground = { height = 10.0; };\n' >ground.cfg
