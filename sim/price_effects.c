@@ -48,11 +48,13 @@ static double least_change(const struct effect_cost_table *table)
     return isfinite(least) ? fmax(1e-16, pow(10, floor(log10(least)) - 1)) : 1e-16;
 }
 
-/* Its name below a bar, with a star where the skin breaks otherwise without it. */
-static void write_label(const struct effect_cost_table *table, const struct effect_cost_row *row,
+/* Its name below a bar, with a star where the skin breaks otherwise without it: true there. */
+static bool write_label(const struct effect_cost_table *table, const struct effect_cost_row *row,
                         char text[40])
 {
-    snprintf(text, 40, "%s%s", row->effect->name, effect_cost_breaks_otherwise(table, row) ? "*" : "");
+    const bool otherwise = effect_cost_breaks_otherwise(table, row);
+    snprintf(text, 40, "%s%s", row->effect->name, otherwise ? "*" : "");
+    return otherwise;
 }
 
 /* Shares of the time, and beside them how much the answer changes. */
@@ -63,10 +65,12 @@ static enum status draw(const void *context, const char *scene, const char *path
     char text[EFFECT_COST_ROWS_MAX][40];
     const char *name[EFFECT_COST_ROWS_MAX];
     const double least = least_change(table);
+    bool starred = false, saved = false;
     size_t count = 0;
     for (size_t i = 0; i < table->count; i++)
         if (!*table->rows[i].refused) {
-            write_label(table, &table->rows[i], text[count]);
+            starred |= write_label(table, &table->rows[i], text[count]);
+            saved |= table->rows[i].share < 0;
             name[count] = text[count];
             share[count] = 100 * table->rows[i].share;
             change[count++] = fmax(table->rows[i].position, least);
@@ -75,15 +79,17 @@ static enum status draw(const void *context, const char *scene, const char *path
         .style = PLOT_BARS, .y = share, .label = name, .count = count, .colour = 1};
     const struct plot_series of_places = {
         .style = PLOT_BARS, .y = change, .label = name, .count = count, .colour = 2};
-    const struct plot_panel panels[] = {{.title = "What each effect costs",
-                                         .y_label = "% of the time; below 0: that it saves",
-                                         .series = &of_time,
-                                         .series_count = 1},
-                                        {.title = "What changes without it; *: how the skin breaks, too",
-                                         .y_label = "RMS change of positions, in radii",
-                                         .log_y = true,
-                                         .series = &of_places,
-                                         .series_count = 1}};
+    const struct plot_panel panels[] = {
+        {.title = "What each effect costs",
+         .y_label = saved ? "% of the time; below 0: that it saves" : "% of the time",
+         .series = &of_time,
+         .series_count = 1},
+        {.title = starred ? "What changes without it; *: how the skin breaks, too"
+                          : "What changes without it",
+         .y_label = "RMS change of positions, in radii",
+         .log_y = true,
+         .series = &of_places,
+         .series_count = 1}};
     const struct plot plot = {
         .title = scene, .panels = panels, .panel_count = 2, .columns = 2, .width = 500, .height = 420};
     return plot_save(&plot, path, err);
