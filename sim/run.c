@@ -24,9 +24,9 @@ struct run {
     double first_break;         /* s; -1: nothing has broken */
     double began, kept;         /* now() at the start, and at the last checkpoint */
     struct {
-        bool split;
-        uint64_t choices;
-    } said; /* about methods and steps */
+        uint32_t parts;   /* of a split step; 0: not yet */
+        uint64_t choices; /* of methods */
+    } said;               /* about methods and steps */
 };
 
 static double now(void)
@@ -36,17 +36,21 @@ static double now(void)
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* Says once that steps are split, and why; or each time what has been chosen. */
+/* Says that steps are split, and why, and again when that is in ten times as many parts; or each time what
+ * has been chosen. */
 static void note_method(struct run *run)
 {
     struct sim *sim = run->sim;
     char text[256];
     if (auto_describe(sim, &run->said.choices, text, sizeof text)) {
         command_note("%s", text);
-    } else if (!run->said.split && sim->substeps > 1 && sim->acting == sim->integrator) {
-        run->said.split = true;
+    } else if (sim->substeps > 1 && sim->substeps >= 10 * run->said.parts && sim->acting == sim->integrator) {
         guard_describe(sim, text, sizeof text);
-        command_note("%s", text);
+        if (run->said.parts)
+            command_note("at %.4g s: %s", sim->time, text);
+        else
+            command_note("%s", text);
+        run->said.parts = sim->substeps;
     }
 }
 

@@ -6,6 +6,10 @@ one_message
 stderr_has 'time.step 1 is split in [0-9]+: steps up to 0.0[0-9]+ are surely stable for symplectic-euler; most of that is for the (dampers|springs) at point [0-9]+ of balloons\[0\]$'
 stdout_has '^4 s in [0-9]{2,} steps'
 awk -F'\t' 'NR == 3 && $13 < 0.1 { small = 1 } END { exit !small }' log.tsv || fail "the log's step is not the split one"
+# It says so again when steps are split in ten times as many parts.
+expect 0 balloon-sim m.ply $large --set time.guard=substep --set schedule[0].at=2 --set schedule[0].damping=20 --log log.tsv
+stderr_has '^balloon-sim: at 2.0[0-9]* s: time.step 1 is split in [0-9]{3,}: steps up to 0.00[0-9]+ are surely stable'
+[ "$(grep -c 'is split in' .stderr)" = 2 ] || fail "told $(grep -c 'is split in' .stderr) times of split steps"
 refused 3 'refused at time 0: time.step 1 is too large: steps up to 0.0' balloon-sim m.ply --hash $large --set time.guard=refuse
 refused 3 'diverged at time .* on an edge of length .*; kinetic energy .*; time.step 1 is too large: steps up to 0.0' \
     balloon-sim m.ply --hash $large --set time.end=1000 --set time.guard=off
