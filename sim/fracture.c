@@ -13,6 +13,20 @@ double fracture_equal_energy(double stretch)
     return (2 * squared + 1 / (squared * squared) - 3) / 2;
 }
 
+/* x = L^2 of x + 1/(2 x^2) = W + 3/2, whose left side rises and is convex from x = 1 on: Newton's method
+ * comes down to it from any x that is too large, as W + 3/2 is. */
+double fracture_equal_stretch(double energy)
+{
+    double squared = energy + 1.5, before;
+    do {
+        before = squared;
+        const double slope = 1 - 1 / (squared * squared * squared);
+        squared -= slope > 0 ? (squared + 1 / (2 * squared * squared) - energy - 1.5) / slope : 0;
+        squared = fmax(squared, 1);
+    } while (squared < before * (1 - 1e-15));
+    return sqrt(squared);
+}
+
 /* Principal stretches from F = [d1 d2] [(a, 0), (b, c)]^-1, whose columns are f1 and f2; then neo-Hookean,
  * with tension-field wrinkles (membrane.h). */
 static void look_at_springs(const struct sim *sim, const struct sim_balloon *b, uint32_t triangle,
@@ -84,13 +98,37 @@ static void find_energies(struct sim *sim, struct sim_balloon *b)
         f->patch_sum[f->patch[t]] += f->energy[t] * b->topology->rest_area[t];
 }
 
-static double patch_strength(const struct sim_balloon *b, uint32_t triangle)
+/* What the patch around a triangle holds, and what it bears. */
+static double patch_energy(const struct fracture *f, uint32_t t)
+{
+    return f->patch_sum[f->patch[t]] / f->patch_area[f->patch[t]];
+}
+
+static double patch_bears(const struct sim_balloon *b, uint32_t t)
 {
     const struct fracture *f = b->fracture;
-    const uint32_t t = triangle - b->triangle_begin, patch = f->patch[t];
     const double again = f->now.births > 0 ? 1.5 : 1;
-    return f->patch_sum[patch] / f->patch_area[patch] /
-           (again * f->whole_energy * (1 + b->scene->fracture.weakness * f->noise[t]));
+    return again * f->whole_energy * (1 + b->scene->fracture.weakness * f->noise[t]);
+}
+
+static double patch_strength(const struct sim_balloon *b, uint32_t triangle)
+{
+    const uint32_t t = triangle - b->triangle_begin;
+    return patch_energy(b->fracture, t) / patch_bears(b, t);
+}
+
+bool fracture_nearest(const struct sim_balloon *b, double *held, double *borne)
+{
+    double most = 0;
+    for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++) {
+        const double strength = patch_strength(b, t);
+        if (strength <= most)
+            continue;
+        most = strength;
+        *held = patch_energy(b->fracture, t - b->triangle_begin);
+        *borne = patch_bears(b, t - b->triangle_begin);
+    }
+    return most > 0;
 }
 
 static bool is_near_birth(const struct sim_balloon *b, const double place[3], double distance)

@@ -95,7 +95,12 @@ void fracture_step(struct sim *sim, struct sim_balloon *balloon);
 /* Its second half: those tips go on that can. */
 void fracture_tips(struct sim *sim, struct sim_balloon *balloon);
 
-/* W of an equal stretch both ways. */
+/* W of an equal stretch both ways; and the stretch of 1 at the least that has such a W. */
 double fracture_equal_energy(double stretch);
+double fracture_equal_stretch(double energy);
+
+/* Of the patch that was nearest to a birth at the last look: what it held (the mean of W), and what it
+ * bears. False: there was no look yet. */
+bool fracture_nearest(const struct sim_balloon *balloon, double *held, double *borne);
 
 #endif

@@ -95,6 +95,11 @@ enum status outputs_finish(struct outputs *outputs, struct error *err)
     return status;
 }
 
+bool outputs_are_there(const struct outputs *outputs)
+{
+    return outputs->film || outputs->log || outputs->series || outputs->cache;
+}
+
 /* At their own times where the method can tell what was inside a step, else one of the state as it is now. */
 enum status outputs_show(struct outputs *outputs, struct sim *sim, struct error *err)
 {

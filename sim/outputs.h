@@ -33,6 +33,9 @@ void outputs_find_rest(struct outputs *outputs, const struct sim *sim);
 enum status outputs_open(struct outputs *outputs, const struct options *options, struct sim *sim,
                          const struct checkpoint_run *past, struct error *err);
 
+/* Whether anything is drawn or written of a state. */
+bool outputs_are_there(const struct outputs *outputs);
+
 /* All frames that are due by now. */
 enum status outputs_show(struct outputs *outputs, struct sim *sim, struct error *err);
 

@@ -7,6 +7,7 @@
 #include "sim/guard.h"
 #include "sim/interrupt.h"
 #include "sim/ledger.h"
+#include "sim/nearest_break.h"
 #include "sim/outputs.h"
 #include "sim/piece_table.h"
 
@@ -20,9 +21,11 @@ struct run {
     const struct options *options;
     struct sim *sim;
     struct outputs outputs;
-    struct checkpoint_run past; /* before the run was resumed; all 0 without */
-    double first_break;         /* s; -1: nothing has broken */
-    double began, kept;         /* now() at the start, and at the last checkpoint */
+    struct checkpoint_run past;   /* before the run was resumed; all 0 without */
+    double first_break;           /* s; -1: nothing has broken */
+    struct nearest_break nearest; /* until then, in what was shown */
+    bool looked;                  /* anything was */
+    double began, kept;           /* now() at the start, and at the last checkpoint */
     struct {
         uint32_t parts;   /* of a split step; 0: not yet */
         uint64_t choices; /* of methods */
@@ -97,6 +100,18 @@ static enum status look_up(struct run *run, struct error *err)
                      options->checkpoint ? options->checkpoint : "");
 }
 
+/* Who draws or measures this state has time for another look at it. */
+static enum status show(struct run *run, struct error *err)
+{
+    const uint64_t shown = run->outputs.shown;
+    enum status status = outputs_show(&run->outputs, run->sim, err);
+    if (run->first_break < 0 && run->outputs.shown > shown && outputs_are_there(&run->outputs)) {
+        nearest_break_look(run->sim, &run->nearest);
+        run->looked = true;
+    }
+    return status;
+}
+
 static enum status step(struct run *run, struct error *err)
 {
     struct sim *sim = run->sim;
@@ -105,7 +120,7 @@ static enum status step(struct run *run, struct error *err)
     note_news(sim);
     if (sim->broken && run->first_break < 0)
         run->first_break = sim->time;
-    return status ? status : outputs_show(&run->outputs, sim, err);
+    return status ? status : show(run, err);
 }
 
 static enum status step_to_end(struct run *run, struct error *err)
@@ -205,6 +220,19 @@ static double distance_of_skin(const struct sim *sim, const double place[3])
     return least;
 }
 
+/* Where nothing broke: how near it came. */
+static void note_nearest(struct run *run)
+{
+    const struct nearest_break *nearest = &run->nearest;
+    nearest_break_look(run->sim, &run->nearest);
+    if (nearest->share > 0)
+        command_note(
+            "nearest to breaking %s balloons[%zu] at %.4g s, to %.0f %%: %s %.3g times%s, which %s at %.3g",
+            run->looked ? "came" : "at the end is", nearest->balloon, nearest->time, 100 * nearest->share,
+            nearest->tears ? "skin as if stretched" : "an edge stretched", nearest->stretch,
+            nearest->tears ? " both ways" : "", nearest->tears ? "tears" : "lets go", nearest->most);
+}
+
 /* Where nothing broke: where the needles were. */
 static void note_needles(const struct sim *sim)
 {
@@ -263,8 +291,10 @@ enum status run(const struct options *options, struct sim *sim, struct estimate 
         status = save_pieces(sim, options->pieces, err);
     if (!status)
         print_summary(&run);
-    if (!status && run.first_break < 0)
+    if (!status && run.first_break < 0) {
+        note_nearest(&run);
         note_needles(sim);
+    }
     free(run.past.rows);
     return status;
 }
