@@ -2,6 +2,7 @@
  * needles find the skin. */
 #include "../unit/balloon.h"
 #include "common/random.h"
+#include "common/vec3.h"
 #include "sim/obstacles.h"
 
 static const struct obstacle
@@ -206,6 +207,26 @@ static void test_a_needle_tears_the_skin_where_and_when_it_arrives(void **state)
     close_balloon(&b);
 }
 
+/* Skin that tears along cracks is slit where the needle meets it, and not where it set out: the points that
+ * the slit has made in its first step are within its half length, and an edge, of there. */
+static void test_a_needle_slits_a_membrane_where_it_meets_it(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 3,
+                 SETTINGS("needles[0].from=[70,30,20]", "needles[0].velocity=[-100,0,0]", "time.step=0.01",
+                          "balloons[0].pressure=0", "balloons[0].membrane.thickness=0.45",
+                          "balloons[0].fracture.mode=tear"));
+    const uint32_t points = b.sim.balloons[0].point_end;
+    while (b.sim.balloons[0].point_end == points && b.sim.time < 1)
+        steps(&b, 1);
+    const double met[3] = {sqrt(45 * 45 - 30 * 30 - 20 * 20), 30, 20};
+    assert_true(b.sim.balloons[0].point_end > points);
+    for (uint32_t p = points; p < b.sim.balloons[0].point_end; p++)
+        assert_true(vec3_distance(b.sim.position[p], met) < 0.075 * 45 + b.sim.balloons[0].mean_rest_length);
+    close_balloon(&b);
+}
+
 static void test_skin_that_grows_into_a_needle_tears(void **state)
 {
     (void)state;
@@ -251,6 +272,7 @@ int main(void)
         cmocka_unit_test(test_what_is_far_is_met_as_if_each_step_had_looked),
         cmocka_unit_test(test_a_gap_is_no_wider_than_it_is),
         cmocka_unit_test(test_a_needle_tears_the_skin_where_and_when_it_arrives),
+        cmocka_unit_test(test_a_needle_slits_a_membrane_where_it_meets_it),
         cmocka_unit_test(test_skin_that_grows_into_a_needle_tears),
         cmocka_unit_test(test_bad_surroundings_are_refused_with_a_reason),
     };

@@ -1,5 +1,7 @@
 /* What acts on a balloon from outside: gravity, the lift of light gas, drag, strings and pins. */
+#include "common/vec3.h"
 #include "sim/effect_gas.h"
+#include "sim/guard.h"
 #include "unit/books.h"
 
 /* A balloon that nothing inflates and nothing breaks. */
@@ -198,6 +200,38 @@ static void it_hangs_on_its_string(void **state)
     close_balloon(&b);
 }
 
+/* While it hangs slack a string pulls at nothing, and steps are as long as without it; before it is taut
+ * they are as short as it asks; and when it is slack again nearly as long as before: the bound's own search
+ * for the stiffest motion begins at that of the string. */
+static void a_slack_string_asks_for_no_shorter_steps(void **state)
+{
+    (void)state;
+    struct balloon b, free;
+    const char *const fall = "gravity.acceleration=[0.0, -9.81, 0.0]", *const guard = "time.guard=substep",
+                      *const method = "time.integrator=symplectic-euler";
+    open_balloon(&free, 2, QUIET(method, guard, fall));
+    open_balloon(&b, 2,
+                 QUIET(method, guard, fall, "balloons[0].string.place=[0.0, 1.0, 0.0]",
+                       "balloons[0].string.to=[0.0, 2.0, 0.0]", "balloons[0].string.slack=3",
+                       "balloons[0].string.stiffness=1e4", "balloons[0].string.damping=0"));
+    const double end[3] = {0, 90, 0}, whole = guard_stable_step(&free.sim);
+    uint32_t top = 0;
+    for (uint32_t p = 0; p < b.sim.point_count; p++)
+        top = b.sim.position[p][1] > b.sim.position[top][1] ? p : top;
+    const double length = 3 * vec3_distance(b.sim.position[top], end);
+    assert_true(guard_stable_step(&b.sim) == whole);
+    for (int i = 0; i < 1000 && vec3_distance(b.sim.position[top], end) < length; i++)
+        steps(&b, 1);
+    assert_true(vec3_distance(b.sim.position[top], end) > length);
+    assert_true(guard_stable_step(&b.sim) < whole / 3);
+    for (uint32_t p = 0; p < b.sim.point_count; p++)
+        b.sim.position[p][1] += length / 2;
+    steps(&b, 1);
+    assert_true(guard_stable_step(&b.sim) > 0.8 * whole);
+    close_balloon(&free);
+    close_balloon(&b);
+}
+
 /* With a weight at the end, nothing outside but gravity acts: weight and balloon fall together by half g t^2,
  * taut or slack, to rounding. */
 static void a_weight_and_its_balloon_fall_as_one(void **state)
@@ -254,6 +288,7 @@ int main(void)
         cmocka_unit_test(wind_is_the_same_to_the_bit_on_any_number_of_workers),
         cmocka_unit_test(pins_hold_until_they_let_go),
         cmocka_unit_test(it_hangs_on_its_string),
+        cmocka_unit_test(a_slack_string_asks_for_no_shorter_steps),
         cmocka_unit_test(a_weight_and_its_balloon_fall_as_one),
         cmocka_unit_test(the_balance_of_energies_holds),
     };

@@ -122,12 +122,42 @@ static void thresholds_may_be_each_edges_own(void **state)
     close_balloon(&b);
 }
 
+/* In the balloon's own height, straight from row to row and constant beyond them: so a factor is that at the
+ * middle of the spring, and what springs hold at twice their lengths is the sum of their own halves of
+ * k r^2. */
+static void springs_are_as_stiff_as_their_height_says(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 2,
+                 SETTINGS("balloons[0].spring=20", "balloons[0].threshold=9",
+                          "balloons[0].spring_by_height.profile=((0.1, 1.0), (0.5, 3.0), (0.9, 2.0))"));
+    double low = INFINITY, high = -INFINITY, held = 0;
+    for (uint32_t p = 0; p < b.sim.point_count; p++) {
+        low = fmin(low, b.sim.position[p][1]);
+        high = fmax(high, b.sim.position[p][1]);
+    }
+    for (uint32_t e = 0; e < b.sim.edge_count; e++) {
+        const uint32_t *p = b.sim.edge_point[e];
+        const double h = ((b.sim.position[p[0]][1] + b.sim.position[p[1]][1]) / 2 - low) / (high - low);
+        const double factor = h < 0.1 ? 1 : h < 0.5 ? 1 + 5 * (h - 0.1) : h < 0.9 ? 3 - 2.5 * (h - 0.5) : 2;
+        assert_near(b.sim.current_spring_const[e], 20 * factor, 1e-12 * 60);
+        held += 20 * factor * b.sim.rest_length[e] * b.sim.rest_length[e] / 2;
+    }
+    for (uint32_t p = 0; p < b.sim.point_count; p++)
+        for (int i = 0; i < 3; i++)
+            b.sim.position[p][i] *= 2;
+    assert_near(sim_measure(&b.sim).elastic_energy, held, 1e-12 * held);
+    close_balloon(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_even_pull_stretches_an_irregular_sheet_evenly),
         cmocka_unit_test(regular_triangles_have_the_scenes_constant),
         cmocka_unit_test(thresholds_may_be_each_edges_own),
+        cmocka_unit_test(springs_are_as_stiff_as_their_height_says),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
