@@ -196,7 +196,7 @@ static uint64_t hash_of_crowd(unsigned workers)
                                        "gas.fill=1.5",   "fracture.strength=1.1",   "string.weight=1",
                                        "pins.until=0.1", "bending.stiffness=1",     "pressure=0",
                                        "rip.at=0.02"};
-    struct scene scene;
+    struct scene scene = {0};
     struct mesh meshes[CROWD];
     struct sim sim = {0};
     struct error err = {0};
