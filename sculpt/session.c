@@ -178,9 +178,26 @@ static enum status use_tool(struct session *session, struct error *err)
     return operate(session, &chip, err);
 }
 
+static bool can_begin(const struct session *session)
+{
+    return session->aimed || session->tool == TOOL_CUT; /* the cut's line may begin anywhere */
+}
+
+const char *session_why_nothing(const struct session *session)
+{
+    if (can_begin(session))
+        return NULL;
+    if (session->tree.root != 0)
+        return "There is nothing under the pointer: tools begin on the sculpture.";
+    return history_can_undo(&session->history)
+               ? "The cube is empty, and tools begin on what is there; ctrl+z takes the last step back."
+               : "The cube is empty, and tools begin on what is there; with the cut (k) and tab a drawn line "
+                 "fills half of it.";
+}
+
 enum status session_press(struct session *session, struct error *err)
 {
-    if (session->dragging || (!session->aimed && session->tool != TOOL_CUT))
+    if (session->dragging || !can_begin(session))
         return STATUS_OK;
     session->dragging = true;
     session->pressed = session->ray;

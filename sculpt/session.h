@@ -107,6 +107,9 @@ enum status session_press(struct session *session, struct error *err);
 enum status session_drag(struct session *session, struct error *err);
 enum status session_release(struct session *session, struct error *err);
 
+/* Why a press would begin nothing where the pointer is, in words for whoever presses; NULL: it would. */
+const char *session_why_nothing(const struct session *session);
+
 /* False where there is nothing to undo or redo. */
 bool session_undo(struct session *session, struct error *err);
 bool session_redo(struct session *session, struct error *err);

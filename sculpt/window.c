@@ -114,7 +114,8 @@ static void begin_drag(struct app *app, enum window_button button, int modifiers
         app_say(app, "The balloon is for looking; p goes back to the sculpture.");
     else {
         app->drag = DRAG_TOOL;
-        hints_say(&app->hints, "");
+        const char *nothing = session_why_nothing(&app->session);
+        hints_say(&app->hints, nothing ? nothing : "");
         app_say_unless_ok(app, session_press(&app->session, &err), &err);
     }
 }
@@ -145,7 +146,7 @@ static void tell_forgotten(struct app *app)
 static void end_drag(struct app *app)
 {
     struct error err = {0};
-    if (app->drag == DRAG_TOOL) {
+    if (app->drag == DRAG_TOOL && app->session.dragging) {
         app_say_unless_ok(app, session_release(&app->session, &err), &err);
         if (app->session.unsaved && !app->session.saving)
             app->written = NULL;

@@ -251,6 +251,38 @@ static void bricks_have_all_faces_and_change_only_where_a_chip_fell(void **state
     session_clear(&session);
 }
 
+/* An empty cube has nothing to begin at, for chips and fills alike; which step back there is, is said. */
+static void a_press_that_begins_nothing_says_why(void **state)
+{
+    (void)state;
+    open_new(3);
+    aim(0.5, 0.5);
+    assert_null(session_why_nothing(&session));
+    aim(2, 0.5);
+    assert_non_null(strstr(session_why_nothing(&session), "nothing under the pointer"));
+    session.radius = 2;
+    click(0.5, 0.5);
+    session.fill = true;
+    aim(0.5, 0.5);
+    assert_non_null(strstr(session_why_nothing(&session), "cube is empty"));
+    assert_non_null(strstr(session_why_nothing(&session), "ctrl+z"));
+    click(0.5, 0.5);
+    assert_int_equal(session.tree.root, 0);
+    history_clear(&session.history);
+    assert_non_null(strstr(session_why_nothing(&session), "fills half of it"));
+
+    /* and so it does */
+    session.tool = TOOL_CUT;
+    assert_null(session_why_nothing(&session));
+    const double eye[3] = {0.5, 0.5, 3};
+    session_aim(&session, eye, (double[3]){0, -0.2, -1});
+    assert_ok(session_press(&session, &err), &err);
+    session_aim(&session, eye, (double[3]){0, 0.2, -1});
+    assert_ok(session_release(&session, &err), &err);
+    assert_int_equal(octree_measure(&session.tree).cells, 4 * 8 * 8);
+    session_clear(&session);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -259,6 +291,7 @@ int main(void)
         cmocka_unit_test(a_cut_takes_what_lies_to_the_right_of_the_line),
         cmocka_unit_test(mirror_makes_both_halves_one_step),
         cmocka_unit_test(beside_the_sculpture_a_click_does_nothing),
+        cmocka_unit_test(a_press_that_begins_nothing_says_why),
         cmocka_unit_test(the_brush_keeps_to_the_grid_and_to_its_limits),
         cmocka_unit_test(what_is_saved_is_what_is_opened_and_its_log_replays),
         cmocka_unit_test(work_that_was_not_saved_is_taken_up_again),
