@@ -50,6 +50,7 @@ struct bending_passes {
     double *least;                   /* [triangles] below that |n|^2 a hinge takes it for crushed */
     /* [part_count] some triangle is; a line of the cache would be shared, but is hardly ever written. */
     bool *crushed;
+    unsigned char *hinge_crushed; /* [hinges] 1: the second pass has left it to the third; where any is */
 };
 
 /* What a balloon's hinges are; balloon->bending, NULL where none are asked for. Numbers of hinges are those

@@ -19,8 +19,8 @@ struct work {
     const row *position, *velocity;
     const double *rest[4];
     double damping;
-    uint32_t begin, own; /* points of the part */
-    bool crushed;        /* of the hinges only those with crushed triangles */
+    uint32_t begin, own;          /* points of the part */
+    const unsigned char *crushed; /* of the hinges only those; NULL: all that are there */
     row *out;
     const struct jacobian_product *product;
     struct bending_sums sums;
@@ -163,9 +163,10 @@ typedef void group_handler(struct work *work, const struct group *g);
 INLINE void take(const struct bending_view *view, struct group *g, uint32_t edge, struct work *work,
                  group_handler *handle)
 {
-    if (!bending_holds(view, edge) || (work->crushed && !is_crushed(view, work->position, edge)))
+    const uint32_t hinge = edge - view->first;
+    if (work->crushed ? hinge >= view->count || !work->crushed[hinge] : !bending_holds(view, edge))
         return;
-    g->hinge[g->count] = edge - view->first;
+    g->hinge[g->count] = hinge;
     bending_points(view, edge, g->point[g->count++]);
     if (g->count == 4) {
         handle(work, g);
@@ -237,7 +238,7 @@ static void forces(struct sim *sim, const struct sim_part *part, bool crushed)
         return;
     struct work work = work_of(sim, part->balloon);
     work.out = sim->rows.force;
-    work.crushed = true;
+    work.crushed = part->balloon->bending->passes.hinge_crushed;
     each_group(sim, part, &work, crushed_forces);
     *range = fmax(*range, lanes_largest(work.range));
 }

@@ -29,8 +29,8 @@ static bool is_crushed(const struct bending_view *v, const row *position, uint32
     double least = INFINITY;
     for (int i = 0; i < 2; i++) {
         const double x = e[1] * d[i][2] - e[2] * d[i][1], y = e[2] * d[i][0] - e[0] * d[i][2],
-                     z = e[0] * d[i][1] - e[1] * d[i][0];
-        least = fmin(least, x * x + y * y + z * z);
+                     z = e[0] * d[i][1] - e[1] * d[i][0], square = x * x + y * y + z * z;
+        least = square < least ? square : least;
     }
     return least * v->shrink[edge - v->first] < 1;
 }
@@ -44,10 +44,13 @@ struct hinge_work {
     const double *cosine, *sine, *at_rest, *swing[3];
     double *pull;
     double damping;
-    bool careful; /* some hinges may be cut or crushed */
+    const double *shrink;
+    unsigned char *crushed; /* what becomes known of the hinges; NULL: no triangle is */
+    bool cut;
 };
 
-INLINE struct hinge_work hinge_work_of(const struct sim *sim, const struct sim_balloon *b, bool careful)
+INLINE struct hinge_work hinge_work_of(const struct sim *sim, const struct sim_balloon *b, bool crushed,
+                                       bool cut)
 {
     const struct bending *h = b->bending;
     const struct bending_passes *p = &h->passes;
@@ -62,11 +65,14 @@ INLINE struct hinge_work hinge_work_of(const struct sim *sim, const struct sim_b
                                .swing = {p->swing[0], p->swing[1], p->swing[2]},
                                .pull = sim->hinge_pull + b->edge_begin,
                                .damping = h->damping,
-                               .careful = careful};
+                               .shrink = h->rest[2],
+                               .crushed = crushed ? p->hinge_crushed : NULL,
+                               .cut = cut};
 }
 
 struct folds {
     lanes pull, slope;
+    lane_mask doubtful; /* may be crushed; where any triangle is */
 };
 
 /* What damping takes from the pull: w damping dt/dt/|e|, where both triangles are there. */
@@ -106,6 +112,9 @@ INLINE struct folds folds_of(const struct hinge_work *w, const size_t hinge[4], 
     if (damped)
         f.pull -= slowed(w, hinge, (lane_mask)(lanes_min(high1, high2) > 0), cosine, sine, inverse);
     f.slope = (low - square * (high1 + high2) - 8 * inverse) * of_four(w->at_rest, hinge);
+    if (w->crushed)
+        f.doubtful = (lanes_min(high1, high2) == 0) |
+                     (lanes_max(high1, high2) > 0.999 * of_four(w->shrink, hinge));
     return f;
 }
 
@@ -115,8 +124,12 @@ static __attribute__((noinline)) void leave_out(const struct hinge_work *w, cons
 {
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t edge = v->first + first + i;
-        if (!bending_holds(v, edge) || is_crushed(v, w->position, edge))
+        const bool holds = bending_holds(v, edge),
+                   crushed = holds && w->crushed && is_crushed(v, w->position, edge);
+        if (!holds || crushed)
             f->pull[i] = f->slope[i] = 0;
+        if (w->crushed)
+            w->crushed[first + i] = crushed;
     }
 }
 
@@ -127,7 +140,9 @@ INLINE lanes put_pulls(const struct hinge_work *w, const struct bending_view *v,
     size_t hinge[4];
     list_four(first, count, hinge);
     struct folds f = folds_of(w, hinge, damped);
-    if (w->careful || count < 4 || !four_are_set(&w->active[first]))
+    if (w->crushed)
+        memset(w->crushed + first, 0, count);
+    if (w->cut || count < 4 || !four_are_set(&w->active[first]) || (w->crushed && lanes_any(f.doubtful)))
         leave_out(w, v, (uint32_t)first, count, &f);
     put_four(f.pull, w->pull + first, count);
     return f.slope;
@@ -136,7 +151,7 @@ INLINE lanes put_pulls(const struct hinge_work *w, const struct bending_view *v,
 INLINE double put_all_pulls(struct sim *sim, const struct sim_part *part, bool crushed, bool damped)
 {
     const struct bending_view view = bending_look(sim, part->balloon);
-    const struct hinge_work w = hinge_work_of(sim, part->balloon, crushed || view.cut);
+    const struct hinge_work w = hinge_work_of(sim, part->balloon, crushed, view.cut);
     const uint32_t all = part->edge_end - view.first;
     const size_t end = all < view.count ? all : view.count;
     size_t h = part->edge_begin - view.first;

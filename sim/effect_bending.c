@@ -149,7 +149,8 @@ static bool make_passes(struct sim *sim, const struct sim_balloon *b, struct ben
     if (!sim->hinge_pull)
         sim->hinge_pull = sim_table(sim, sim->edge_count, sizeof *sim->hinge_pull);
     p->crushed = sim_table(sim, sim->part_count, sizeof *p->crushed);
-    bool room = p->normal && p->least && p->crushed && sim->hinge_pull;
+    p->hinge_crushed = sim_table(sim, h->count, sizeof *p->hinge_crushed);
+    bool room = p->normal && p->least && p->crushed && p->hinge_crushed && sim->hinge_pull;
     for (int k = 0; k < 3 && room; k++) {
         p->cotangent[k] = sim_table(sim, triangles, sizeof *p->cotangent[k]);
         if (h->damping > 0)
@@ -208,6 +209,7 @@ static void free_passes(struct bending_passes *p)
     free(p->normal);
     free(p->least);
     free(p->crushed);
+    free(p->hinge_crushed);
 }
 
 static void close(struct sim *sim, struct sim_balloon *b)
