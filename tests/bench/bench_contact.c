@@ -1,6 +1,7 @@
 /* What obstacles, needles and contact cost an icosphere of 20,480 triangles, in steps of springs and constant
- * pressure alone: while nothing is near, and stage by stage while the balloon is sucked empty and folds; on
- * one thread and on two, which come to the same states. bench_contact */
+ * pressure alone: while nothing is near, and stage by stage while the balloon is sucked empty and crumples,
+ * or goes down on the ground and folds, as data/scenes/folded.cfg does; on one thread and on two, which come
+ * to the same states. bench_contact */
 #include "sim/contact.h"
 #include "support/bench.h"
 #include "support/shapes.h"
@@ -51,6 +52,52 @@ static double bench(const struct setting *s, const struct mesh *mesh, unsigned w
     return first;
 }
 
+/* Half seconds of a ball that goes down, with contact and without, in steps as short as they must be: what
+ * contact adds to a step, in steps of springs. */
+static void bench_going_down(const struct mesh *mesh, unsigned workers, double springs)
+{
+    enum { KEYS = 9, HALVES = 8, FIRST = 6 };
+    static const char *changes[KEYS] = {"balloons[0].threshold=100",
+                                        "balloons[0].damping=2",
+                                        "balloons[0].pressure=-0.3",
+                                        "balloons[0].bending.stiffness=20",
+                                        "balloons[0].bending.damping=0.02",
+                                        "time.step=0.01",
+                                        "gravity.acceleration=[0,-6,0]",
+                                        "ground.height=-50",
+                                        "contact.thickness=0.15"};
+    struct scene scene[2] = {0};
+    struct sim sim[2] = {0};
+    struct error err = {0};
+    for (int with = 0; with < 2; with++) {
+        bench_check(scene_from_mesh("sphere", &scene[with], &err), &err);
+        bench_check(scene_set(&scene[with], "time.integrator=symplectic-euler", &err), &err);
+        bench_check(scene_set(&scene[with], "time.guard=substep", &err), &err);
+        for (int i = 0; i < KEYS - !with; i++)
+            bench_check(scene_set(&scene[with], changes[i], &err), &err);
+        bench_check(scene_check(&scene[with], &err), &err);
+        bench_check(sim_open(&sim[with], &scene[with], mesh, workers, &err), &err);
+    }
+    for (int half = 1; half <= HALVES; half++) {
+        double each[2];
+        for (int with = 0; with < 2; with++) {
+            const double began = bench_thread_seconds();
+            const uint64_t steps = sim[with].steps;
+            while (sim[with].time < 0.5 * half - 1e-9)
+                bench_check(sim_step(&sim[with], &err), &err);
+            each[with] = (bench_thread_seconds() - began) / (double)(sim[with].steps - steps);
+        }
+        if (half >= FIRST)
+            printf("%-11s %7u %5.2f s %9.0f us %6.1f %9u   %016" PRIx64 "\n", "going down", workers,
+                   sim[1].time, 1e6 * each[1], 1 + (each[1] - each[0]) / springs, sim[1].contact->pair_count,
+                   sim_hash(&sim[1]));
+    }
+    for (int with = 0; with < 2; with++) {
+        sim_clear(&sim[with]);
+        scene_clear(&scene[with]);
+    }
+}
+
 int main(void)
 {
     static const struct setting settings[] = {
@@ -72,6 +119,7 @@ int main(void)
             const double first = bench(&settings[i], &mesh, workers, springs);
             springs = i == 0 ? first : springs;
         }
+        bench_going_down(&mesh, workers, springs);
     }
     mesh_clear(&mesh);
     return 0;
