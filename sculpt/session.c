@@ -190,9 +190,8 @@ const char *session_why_nothing(const struct session *session)
     if (session->tree.root != 0)
         return "There is nothing under the pointer: tools begin on the sculpture.";
     return history_can_undo(&session->history)
-               ? "The cube is empty, and tools begin on what is there; ctrl+z takes the last step back."
-               : "The cube is empty, and tools begin on what is there; with the cut (k) and tab a drawn line "
-                 "fills half of it.";
+               ? "The cube is empty; ctrl+z takes the last step back."
+               : "The cube is empty; k, tab and a drawn line fill half of it.";
 }
 
 enum status session_press(struct session *session, struct error *err)

@@ -269,7 +269,7 @@ static void a_press_that_begins_nothing_says_why(void **state)
     click(0.5, 0.5);
     assert_int_equal(session.tree.root, 0);
     history_clear(&session.history);
-    assert_non_null(strstr(session_why_nothing(&session), "fills half of it"));
+    assert_non_null(strstr(session_why_nothing(&session), "fill half of it"));
 
     /* and so it does */
     session.tool = TOOL_CUT;
