@@ -278,6 +278,26 @@ static void the_balance_of_energies_holds(void **state)
     assert_true(fabs(fine) < fabs(coarse) / 10 || fabs(fine) < 1e-11 * scale);
 }
 
+/* A pressure that is given works by p dV, whatever the skin does meanwhile: what the books have of it is that
+ * to RK4's error, whose share is (step x 60/s)^4, 60/s the springs' fastest swing. */
+static void a_given_pressure_works_by_p_dv(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 2,
+                 SETTINGS("time.integrator=rk4", "time.step=0.001", "balloons[0].threshold=100",
+                          "balloons[0].pressure_on=areas", "balloons[0].pressure=0.3"));
+    open_books(&b);
+    const double before = sim_measure(&b.sim).volume;
+    steps(&b, 300);
+    const double work = 0.3 * (sim_measure(&b.sim).volume - before);
+    const struct ledger_balance account = balance(&b);
+    assert_true(work > 1000);
+    assert_near(account.pressure_work, work, 1e-5 * work);
+    assert_near(account.error, 0, 1e-5 * work);
+    close_balloon(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -291,6 +311,7 @@ int main(void)
         cmocka_unit_test(a_slack_string_asks_for_no_shorter_steps),
         cmocka_unit_test(a_weight_and_its_balloon_fall_as_one),
         cmocka_unit_test(the_balance_of_energies_holds),
+        cmocka_unit_test(a_given_pressure_works_by_p_dv),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
