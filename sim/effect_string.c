@@ -4,6 +4,7 @@
  * each. Its other end is held, or carries a weight, which is no point of the skin: its place and speed are
  * scalars, integrated along.
  */
+#include "sim/effect_string.h"
 #include "common/vec3.h"
 #include "sim/effects.h"
 #include "sim/guard.h"
@@ -97,6 +98,17 @@ static struct pull pull_of(const struct sim *sim, const struct string *string)
         pull.tension = fmax(0, string->scene->stiffness * (pull.length - string->length) +
                                    string->scene->damping * vec3_dot(pull.speed, pull.along));
     return pull;
+}
+
+bool string_ends(const struct sim *sim, const struct sim_balloon *b, double skin[3], double end[3])
+{
+    const struct string *string = b->string;
+    if (!string)
+        return false;
+    mean_of(string, sim->position, skin);
+    memcpy(end, string->weight > 0 ? &sim->scalar[string->scalar + STRING_PLACE] : string->end,
+           sizeof string->end);
+    return true;
 }
 
 static void apply(struct sim *sim, struct sim_balloon *b)

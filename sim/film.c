@@ -117,8 +117,8 @@ static enum status draw_eye(struct film *film, int eye, struct error *err)
     const struct sim *sim = film->skins.sim;
     if (film->frames[1])
         film->view.stereo = eyes[eye].stereo;
-    enum status status = render_draw(film->render, &film->view, film->skins.skins, sim->balloon_count,
-                                     &film->image, err);
+    const struct render_scene scene = skins_scene(&film->skins, &film->view);
+    enum status status = render_draw_scene(film->render, &film->view, &scene, &film->image, err);
     if (!status)
         status = remove_old(film, err);
     return status ? status : frames_add(film->frames[eye], &film->image, sim->time, err);

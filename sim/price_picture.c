@@ -34,8 +34,8 @@ static double now(void)
 static enum status draw(struct drawing *d, struct price_picture *row, struct error *err)
 {
     const double began = now();
-    const enum status status = render_draw(d->render, &d->view, d->skins.skins, d->skins.sim->balloon_count,
-                                           &d->image, err);
+    const struct render_scene scene = skins_scene(&d->skins, &d->view);
+    const enum status status = render_draw_scene(d->render, &d->view, &scene, &d->image, err);
     row->seconds = fmin(row->seconds, now() - began);
     return status;
 }

@@ -3,6 +3,7 @@
 #include "common/array.h"
 #include "common/vec3.h"
 #include "sim/measure.h"
+#include "sim/props.h"
 
 #include <stdlib.h>
 
@@ -46,8 +47,9 @@ enum status skins_init(struct skins *skins, struct sim *sim, struct error *err)
     skins->stretch = array_new(sim->triangle_count, sizeof *skins->stretch);
     skins->position = array_new(sim->point_count, sizeof *skins->position);
     skins->normal = array_new(sim->point_count, sizeof *skins->normal);
-    if (!skins->meshes || !skins->skins || !skins->position || !skins->normal || !skins->opacity ||
-        !skins->shininess || !skins->stretch) {
+    skins->lines = array_new(props_room(sim) + 1, sizeof *skins->lines);
+    if (!skins->lines || !skins->meshes || !skins->skins || !skins->position || !skins->normal ||
+        !skins->opacity || !skins->shininess || !skins->stretch) {
         skins_clear(skins);
         return error_no_memory(err, "the skins");
     }
@@ -65,6 +67,7 @@ void skins_clear(struct skins *skins)
     free(skins->opacity);
     free(skins->shininess);
     free(skins->stretch);
+    free(skins->lines);
     *skins = (struct skins){0};
 }
 
@@ -93,6 +96,15 @@ void skins_update(struct skins *skins)
         for (int k = 0; k < 3 && sim->triangle_active[t]; k++)
             skins->lowest = fmin(skins->lowest, sim->position[sim->triangle_point[t][k]][1]);
     }
+}
+
+struct render_scene skins_scene(struct skins *skins, const struct render_view *view)
+{
+    skins->line_count = props_draw(skins->sim, view, skins->lines);
+    return (struct render_scene){.skins = skins->skins,
+                                 .skin_count = skins->sim->balloon_count,
+                                 .lines = skins->lines,
+                                 .line_count = skins->line_count};
 }
 
 void skins_floor(const struct skins *skins, const double ball[4], struct render_view *view)

@@ -2,6 +2,7 @@
 #ifndef SIM_SKINS_H
 #define SIM_SKINS_H
 
+#include "render/overlay.h"
 #include "render/render.h"
 #include "sim/sim.h"
 
@@ -13,6 +14,8 @@ struct skins {
     struct render_skin *skins;            /* [sim->balloon_count] what render_draw() takes */
     float *opacity, *shininess, *stretch; /* [sim->triangle_count]; of area */
     double lowest;                        /* y of all that is drawn; infinite where that is nothing */
+    struct render_line *lines;            /* [line_count] strings, needles, obstacles (props.h) */
+    size_t line_count;
 };
 
 /* `sim` is borrowed. Errors: STATUS_NO_MEMORY; then *skins is empty. */
@@ -21,6 +24,10 @@ void skins_clear(struct skins *skins);
 
 /* Normals, opacity, shininess, stretch and bottom of the state as it is: before each picture. */
 void skins_update(struct skins *skins);
+
+/* What render_draw_scene() takes of it, with the lines of all that is there beside the balloons. After
+ * skins_update(). */
+struct render_scene skins_scene(struct skins *skins, const struct render_view *view);
 
 /* What the scene says of the picture but its camera: size, stereo, style, order, samples. Eyes that are
  * separate in files are side by side where there is one picture. */

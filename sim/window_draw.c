@@ -128,11 +128,16 @@ static void fill_bands(struct app *app)
         }
 }
 
-/* The springs that hold. */
-static bool make_wires(struct app *app)
+/* What there is beside the balloons, and the springs that hold. */
+static bool make_wires(struct app *app, const struct render_view *view)
 {
     const struct sim *sim = app->live.sim;
+    const struct render_scene props = skins_scene(&app->skins, view);
     app->lines.count = 0;
+    if (!ARRAY_RESERVE(&app->lines, props.line_count))
+        return false;
+    for (size_t i = 0; i < props.line_count; i++)
+        app->lines.items[app->lines.count++] = props.lines[i];
     if (app->wires == WIRES_OFF)
         return true;
     if (!ARRAY_RESERVE(&app->lines, sim->edge_count))
@@ -178,7 +183,7 @@ static enum status make_scene(struct app *app, struct render_view *view, struct 
         scene->skins = app->skins.skins;
         scene->skin_count = app->live.sim->balloon_count;
     }
-    if (!make_wires(app))
+    if (!make_wires(app, view))
         return error_no_memory(err, "the wires");
     scene->lines = app->lines.items;
     scene->line_count = app->lines.count;

@@ -1,5 +1,6 @@
 /* Where the floor of a simulation's picture lies. */
 #include "balloon.h"
+#include "common/vec3.h"
 #include "sim/skins.h"
 
 /* In radii below the middle at rest, once all points have moved up by `up` radii and
@@ -56,12 +57,55 @@ static void level_ground_is_the_floor_and_a_slope_is_not(void **state)
     assert_near(depth_of_floor(slope, 0, 1), 1, 1e-9);
 }
 
+static void assert_line(const struct render_line *line, const double from[3], const double to[3])
+{
+    for (int i = 0; i < 3; i++) {
+        assert_near(line->from[i], from[i], 1e-9);
+        assert_near(line->to[i], to[i], 1e-9);
+    }
+}
+
+/* A string from the skin to its weight, a needle from its time on where it is then, a box's twelve edges. */
+static void what_is_there_beside_balloons_is_drawn_as_lines(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct balloon b;
+    struct skins skins;
+    const struct render_view view = {.width = 600, .height = 600};
+    open_balloon(&b, 1,
+                 SETTINGS("balloons[0].radius=10", "balloons[0].pressure=0", "balloons[0].string.weight=1",
+                          "needles[0].from=[0,0,50]", "needles[0].velocity=[0,0,-10]", "needles[0].at=0.5",
+                          "obstacles[0].shape=box", "obstacles[0].place=[40,0,0]",
+                          "obstacles[0].size=[2,4,6]", "time.integrator=verlet", "time.step=0.1"));
+    assert_ok(skins_init(&skins, &b.sim, &err), &err);
+    struct render_scene scene = skins_scene(&skins, &view);
+    assert_int_equal(scene.line_count, 2 + 12);
+    assert_line(&scene.lines[0], (double[3]){0, -10, 0}, (double[3]){0, -20, 0});
+    assert_line(&scene.lines[1], (double[3]){0, -20, 0}, (double[3]){0, -22, 0});
+    double lower[3] = {INFINITY, INFINITY, INFINITY}, length = 0;
+    for (size_t i = 2; i < scene.line_count; i++) {
+        length += vec3_distance(scene.lines[i].from, scene.lines[i].to);
+        for (int k = 0; k < 3; k++)
+            lower[k] = fmin(lower[k], scene.lines[i].from[k]);
+    }
+    assert_near(length, 4 * (2 + 4 + 6), 1e-12);
+    assert_true(lower[0] == 39 && lower[1] == -2 && lower[2] == -3);
+    steps(&b, 8);
+    scene = skins_scene(&skins, &view);
+    assert_int_equal(scene.line_count, 3 + 12);
+    assert_line(&scene.lines[2], (double[3]){0, 0, 47}, (double[3]){0, 0, 55});
+    skins_clear(&skins);
+    close_balloon(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(skin_stands_on_the_floor_while_it_swells),
         cmocka_unit_test(the_floor_does_not_follow_what_flies_away),
         cmocka_unit_test(level_ground_is_the_floor_and_a_slope_is_not),
+        cmocka_unit_test(what_is_there_beside_balloons_is_drawn_as_lines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
