@@ -102,7 +102,7 @@ static void tell(double spent)
     const char *size = progress.told > 0 ? "" : progress.size;
     char so_far[32], rest[32], percent[32];
     const bool is_nearly_done = rate > 0 && left < SOON;
-    if (is_nearly_done && spent < 2 * FIRST)
+    if (is_nearly_done && spent < fmax(2 * FIRST, 2 * progress.told))
         return; /* or so it seems: what takes longer than it should is told of all the same */
     tell_number(100 * share_done(), percent, sizeof percent);
     tell_time(spent, so_far, sizeof so_far);
