@@ -101,7 +101,7 @@ static double fewest_parts(struct sim *sim, int i)
         return 1;
     if (isinf(sim->acting->oscillation_limit)) {
         sim->acting = to;
-        guard_outdated(sim);
+        guard_bound_outdated(sim);
     }
     const double larger = fmin(to->oscillation_limit / sim->acting->oscillation_limit,
                                to->decay_limit / sim->acting->decay_limit);
@@ -246,7 +246,7 @@ static bool choose(struct sim *sim, bool first)
     m->memory.steps += first;
     if (sim->acting != candidates[m->memory.candidate]) {
         sim->acting = candidates[m->memory.candidate];
-        guard_outdated(sim);
+        guard_bound_outdated(sim);
     }
     sim->wanted_substeps = (uint32_t)m->memory.parts;
     return true;

@@ -61,7 +61,8 @@ enum status sim_diverged(struct sim *sim, double energy, struct error *err)
     const uint32_t p = worst_point(sim, &b);
     char edge[96], advice[256] = "the step is surely stable: is a scene so violent meant?";
     describe_edge(sim, b, p, edge, sizeof edge);
-    if (sim->whole_step > guard_stable_step(sim))
+    const bool is_too_large = sim->whole_step > guard_stable_step(sim);
+    if (is_too_large)
         guard_describe(sim, advice, sizeof advice);
     else if (sim->scene->drag.on)
         snprintf(
@@ -72,8 +73,9 @@ enum status sim_diverged(struct sim *sim, double energy, struct error *err)
     return error_set(
         err, STATUS_DIVERGED,
         "%s: diverged at time %g (step %llu): point %u of balloons[%zu] is at (%g, %g, %g), moving at "
-        "(%g, %g, %g)%s; kinetic energy %g; %s",
+        "(%g, %g, %g)%s; kinetic energy %g; %s%s",
         sim->scene->path, sim->time, (unsigned long long)sim->steps, p - b->point_begin,
         (size_t)(b - sim->balloons), sim->position[p][0], sim->position[p][1], sim->position[p][2],
-        sim->velocity[p][0], sim->velocity[p][1], sim->velocity[p][2], edge, energy, advice);
+        sim->velocity[p][0], sim->velocity[p][1], sim->velocity[p][2], edge, energy, advice,
+        is_too_large && sim->scene->time.guard == SCENE_GUARD_OFF ? "; time.guard=substep splits it" : "");
 }

@@ -325,7 +325,7 @@ static void watch(struct sim *sim, struct sim_balloon *b)
     if (most <= b->bending->bounded && b->bending->bounded <= too_much * spare * most)
         return;
     b->bending->bounded = spare * most;
-    guard_outdated(sim);
+    guard_bound_outdated(sim);
 }
 
 static size_t blocks(struct sim *sim, struct sim_balloon *b, struct sim_block *blocks)

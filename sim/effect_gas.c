@@ -191,7 +191,7 @@ static void let_all_go(struct sim *sim, struct sim_balloon *b)
     b->gas->memory.gone = 1;
     b->gas->pressure = b->gas->scene->ambient;
     sim->changed = true;
-    guard_outdated(sim);
+    guard_bound_outdated(sim);
     sim_tell(sim, b, "gas", "has left through the holes, and sleeps");
 }
 
@@ -248,7 +248,7 @@ static void after(struct sim *sim, struct sim_balloon *b)
     if (!memory->gone && is_gone(gas))
         let_all_go(sim, b);
     if (!memory->gone && is_bound_outdated(gas))
-        guard_outdated(sim);
+        guard_bound_outdated(sim);
 }
 
 static enum status check(struct sim *sim, struct sim_balloon *b, struct error *err)

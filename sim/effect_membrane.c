@@ -206,7 +206,7 @@ static void watch(struct sim *sim, struct sim_balloon *b)
     if (!narrow && !wide)
         return;
     memcpy(range, wanted, sizeof wanted);
-    guard_outdated(sim);
+    guard_bound_outdated(sim);
 }
 
 static void power(struct sim *sim, struct sim_balloon *b, double *dissipated, double *work)

@@ -178,7 +178,7 @@ static void after(struct sim *sim, struct sim_balloon *b)
     const struct string *string = b->string;
     const double least = 1 - (string->bounded ? far : near);
     if ((pull_of(sim, string).length >= least * string->length) != string->bounded)
-        guard_outdated(sim);
+        guard_bound_outdated(sim);
 }
 
 static size_t blocks(struct sim *sim, struct sim_balloon *b, struct sim_block *list)

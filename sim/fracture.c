@@ -344,5 +344,5 @@ void fracture_step(struct sim *sim, struct sim_balloon *b)
         sim_tell(sim, b, "fracture", "the skin tears");
     /* The number has a digit more: the bound on the step is looked at again, a dozen times in all. */
     if ((now ^ cuts) > cuts)
-        guard_outdated(sim);
+        guard_bound_outdated(sim);
 }

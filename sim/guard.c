@@ -40,7 +40,13 @@ void guard_close(struct sim *sim)
 
 void guard_outdated(struct sim *sim)
 {
-    sim->guard->memory.is_known = 0;
+    sim->guard->memory.is_known = GUARD_UNKNOWN;
+}
+
+void guard_bound_outdated(struct sim *sim)
+{
+    if (sim->guard->memory.is_known == GUARD_KNOWN)
+        sim->guard->memory.is_known = GUARD_REACH_KNOWN;
 }
 
 size_t guard_blocks(struct sim *sim, struct sim_block *blocks)
@@ -92,9 +98,10 @@ static bool is_worth_a_look(const struct sim *sim)
 
 static void look(struct sim *sim)
 {
-    if (!sim->guard->memory.is_known)
+    const uint64_t known = sim->guard->memory.is_known;
+    if (known == GUARD_UNKNOWN)
         find_reach(sim);
-    if (!sim->guard->memory.is_known || is_worth_a_look(sim))
+    if (known != GUARD_KNOWN || is_worth_a_look(sim))
         guard_find_bound(sim);
 }
 

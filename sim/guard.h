@@ -5,7 +5,7 @@
  *     guard_open(sim, err)        once the tables are complete
  *     guard_step(sim, err)        before each step: splits it, or refuses it
  *     guard_check(sim, err)       after it: the numbers are still those of a balloon
- *     guard_outdated(sim)         whenever masses, springs, dampers or pressures have changed
+ *     guard_outdated(sim)         whenever masses, springs, dampers or pressures have been changed
  *
  * The bound. With M u'' + C u' + K u = 0 around the present state, a method with the limits w for dt times
  * the frequency of an oscillator and d for dt times the rate of a decay (struct integrator) is stable while
@@ -59,8 +59,10 @@ enum { GUARD_PARTS_MAX = 1 << 20 };
 enum status guard_open(struct sim *sim, struct error *err); /* STATUS_NO_MEMORY */
 void guard_close(struct sim *sim);
 
-/* Something that the bound depends on is no longer what it was. */
+/* Something that the bound depends on is no longer what it was: somebody changed it, which can have put in
+ * any amount of energy; or the motion did, which puts in none. */
 void guard_outdated(struct sim *sim);
+void guard_bound_outdated(struct sim *sim);
 
 /* A point has been cut in two: `like` is the one of which the bound knew. Looks at what holds the point now,
  * the edges in the list; if that asks for a shorter step, all is looked at anew. */

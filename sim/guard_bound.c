@@ -174,7 +174,7 @@ void guard_cut(struct sim *sim, const struct sim_balloon *b, uint32_t point, uin
     const struct limits l = limits_of(sim);
     const struct membrane *m = b->membrane;
     double springs = 0, dampers = 0;
-    if (!guard->memory.is_known)
+    if (guard->memory.is_known != GUARD_KNOWN)
         return;
     guard->x[point] = guard->x[like];
     guard->rows.stiffness[point] = guard->rows.stiffness[like];
@@ -189,7 +189,7 @@ void guard_cut(struct sim *sim, const struct sim_balloon *b, uint32_t point, uin
     const double stiffness = springs / guard->x[point] + guard->rows.stiffness[point],
                  damping = dampers / guard->x[point] + guard->rows.damping[point];
     if (largest_step(&l, stiffness / sim->mass[point], damping / sim->mass[point]) < guard->memory.stable)
-        guard_outdated(sim);
+        guard_bound_outdated(sim);
 }
 
 void guard_find_bound(struct sim *sim)
@@ -223,5 +223,5 @@ void guard_find_bound(struct sim *sim)
         memory->cause = GUARD_TUBE;
     }
     memory->broken = sim->broken;
-    memory->is_known = 1;
+    memory->is_known = GUARD_KNOWN;
 }

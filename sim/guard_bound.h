@@ -12,6 +12,9 @@ enum guard_cause {
     GUARD_EFFECTS /* the first of sim->hooks[EFFECT_FORCES]; those after it follow */
 };
 
+/* What is up to date. */
+enum guard_known { GUARD_UNKNOWN, GUARD_KNOWN, GUARD_REACH_KNOWN };
+
 /* All arrays are [point_count] and owned. */
 struct guard {
     double *x;                 /* the numbers of Collatz and Wielandt */
@@ -27,7 +30,7 @@ struct guard {
         uint64_t broken;   /* edges, when the bound was found */
         uint32_t point;    /* where it is tightest; of a tube, the first of its balloon */
         uint32_t cause;    /* enum guard_cause, or after: what asks for most of it there */
-        uint64_t is_known; /* 1: nothing has changed since */
+        uint64_t is_known; /* enum guard_known */
     } memory;
 };
 

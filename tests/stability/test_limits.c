@@ -286,6 +286,32 @@ static void drag_that_grows_within_a_step_splits_it_further(void **state)
     close_balloon(&b);
 }
 
+/* Cuts, skin that gets longer, strings that tauten: the bound is found anew as the motion goes on, but none
+ * of it brings energy. What runs away while it tears is found out where it begins to, at a thousand times the
+ * speed that its pressure can give it, and not when its numbers end. */
+static void what_runs_away_while_it_tears_is_found_out_in_time(void **state)
+{
+    (void)state;
+    static const char *const skins[] = {"balloons[0].pressure_on=points",
+                                        "balloons[0].membrane.thickness=0.5"};
+    for (int i = 0; i < 2; i++) {
+        struct balloon b;
+        struct error err = {0};
+        enum status status = STATUS_OK;
+        open_balloon(&b, 3,
+                     SETTINGS("time.integrator=verlet", "balloons[0].fracture.mode=tear",
+                              "balloons[0].fracture.strength=1.2", "balloons[0].pressure=10", skins[i],
+                              "time.step=0.1"));
+        while (!status && b.sim.steps < 1000)
+            status = sim_step(&b.sim, &err);
+        assert_refused(status, STATUS_DIVERGED, "time.guard=substep splits it", &err);
+        const double kinetic = sim_measure(&b.sim).kinetic_energy, can_be = reachable(&b, 10);
+        print_message("# at %g s: %.3g times the energy that there can be\n", b.sim.time, kinetic / can_be);
+        assert_true(kinetic < 1e9 * can_be); /* in one step it grows a thousandfold at most */
+        close_balloon(&b);
+    }
+}
+
 /* A step is split in a million parts at the most: one that needs more before it is through, here since a
  * balloon is thrown into dense air, goes no further. */
 static void what_no_split_follows_any_more_is_refused_within_a_step_too(void **state)
@@ -338,6 +364,7 @@ int main(void)
         cmocka_unit_test(air_crushes_a_half_empty_balloon_no_further_than_its_gas_allows),
         cmocka_unit_test(what_pushes_out_of_the_blue_is_no_divergence),
         cmocka_unit_test(drag_that_grows_within_a_step_splits_it_further),
+        cmocka_unit_test(what_runs_away_while_it_tears_is_found_out_in_time),
         cmocka_unit_test(gas_whose_volume_goes_to_nothing_ends_the_run_and_says_so),
         cmocka_unit_test(what_no_split_follows_any_more_is_refused_within_a_step_too),
         cmocka_unit_test(every_method_follows_effects_stiffer_than_its_step),
