@@ -75,6 +75,19 @@ static const struct cost {
      {1, 2, 0}},
 };
 
+/* What a law of rubber takes of a triangle beyond the neo-Hookean one; Ogden's each of its rows. */
+static const struct work laws[] = {[SCENE_NEO_HOOKEAN] = {0, 0, 0},
+                                   [SCENE_MOONEY_RIVLIN] = {0, 4, 0},
+                                   [SCENE_GENT] = {0, 12, 4},
+                                   [SCENE_OGDEN] = {0, 12, 6}};
+
+static double price_of_law(const struct scene_balloon *balloon)
+{
+    const struct scene_membrane *m = &balloon->membrane;
+    const double rows = m->law == SCENE_OGDEN ? (double)m->ogden.count : 1;
+    return m->on ? rows * price(&laws[m->law], 1) : 0;
+}
+
 static const struct cost *cost_of(const struct effect *effect)
 {
     for (size_t i = 0; i < sizeof costs / sizeof costs[0]; i++)
@@ -99,9 +112,13 @@ double explain_share(const struct effect *effect, const struct scene *scene)
     const double part = effect->scene_wanted
                             ? effect->scene_wanted(scene)
                             : (double)count_wanted(effect, scene) / (double)scene->balloon_count;
+    double law = 0;
     if (!cost)
         return 0;
-    return part * (price(&cost->point, points) + price(&cost->edge, edges) + price(&cost->triangle, 1)) /
+    for (size_t i = 0; i < scene->balloon_count && !strcmp(effect->name, "membrane"); i++)
+        law += price_of_law(&scene->balloons[i]) / (double)scene->balloon_count;
+    return (law +
+            part * (price(&cost->point, points) + price(&cost->edge, edges) + price(&cost->triangle, 1))) /
            step;
 }
 

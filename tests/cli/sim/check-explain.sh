@@ -32,3 +32,11 @@ stays
 stdout_has 'evenly to a stretch of 2\.[23]'
 expect 0 balloon-sim overblown.cfg --explain
 stdout_has '^on	burst	balloons\[0\]: gas filling 30 may'
+
+# A law of rubber that takes more work is expected to.
+share() # LAW
+{
+    expect 0 balloon-sim "$PROGRAMS/data/sphere.ply" --set balloons[0].membrane.thickness=0.4 --set "balloons[0].membrane.law=$1" --explain
+    sed -n 's/^on	membrane	.*adds to a step: \([0-9]*\) %$/\1/p' .stdout
+}
+[ "$(share neo-hookean)" -lt "$(share gent)" ] && [ "$(share gent)" -lt "$(share ogden)" ] || fail "all laws take the same"
