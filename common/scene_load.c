@@ -244,7 +244,9 @@ static enum status parse_file(const char *path, const struct bytes *text, struct
     if (strlen((const char *)text->data) != text->size)
         status = error_set(
             err, STATUS_INPUT,
-            "%s: is not a scene file: it is not text; a scene (.cfg) or a mesh (.ply, .stl, .obj) is wanted",
+            file_has_extension(path, "oct")
+                ? "%s: is a sculpture; balloon-surface makes the mesh of it that is inflated"
+                : "%s: is not a scene file: it is not text; a scene (.cfg) or a mesh (.ply, .stl, .obj) is wanted",
             path);
     else
         status = scene_parse_text(&config, path, (const char *)text->data, err);

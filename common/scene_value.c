@@ -32,6 +32,20 @@ static const char *place_of(const char *name)
     return NULL;
 }
 
+/* The path of a key of that name in another block, the first that has one; false: none has. */
+static bool find_path(const char *name, char *path, size_t size)
+{
+    for (size_t i = 0; i < scene_block_count; i++) {
+        const struct scene_block *block = &scene_blocks[i];
+        if (!scene_find_field(block, name))
+            continue;
+        snprintf(path, size, "%s%s%s%s.%s", block->parent, block->parent[0] ? "[0]." : "", block->name,
+                 block->list ? "[0]" : "", name);
+        return true;
+    }
+    return false;
+}
+
 enum status scene_refuse_name(const struct scene_source *source, const config_setting_t *at, const char *name,
                               const struct scene_block *block, struct error *err)
 {
@@ -50,9 +64,13 @@ enum status scene_refuse_name(const struct scene_source *source, const config_se
     for (size_t i = 0; i < scene_block_count; i++)
         if (!strcmp(scene_blocks[i].parent, owner))
             spelling_consider(&guess, scene_blocks[i].name);
+    char path[128];
+    const char *meant = guess.nearest;
+    if ((!block || !meant) && find_path(name, path, sizeof path))
+        meant = path;
     return scene_refuse(source, at, err, "unknown key `%s`%s%s%s%s%s; --help-scene lists all keys", name,
-                        block ? " in " : "", owner, guess.nearest ? " (did you mean `" : "",
-                        guess.nearest ? guess.nearest : "", guess.nearest ? "`?)" : "");
+                        block ? " in " : "", owner, meant ? " (did you mean `" : "", meant ? meant : "",
+                        meant ? "`?)" : "");
 }
 
 static bool to_number(const config_setting_t *value, double *number)

@@ -42,3 +42,7 @@ bad 's.cfg:1: the block `gravity` stands outside of balloons' 'balloons = ( { me
 bad 's.cfg:1: syntax error; .*text in quotes$' 'balloons = ( { mesh = m.ply; } );'
 balloon-sculpt -q --depth 1 -o cube.oct
 refused 1 'cube.oct: is not a scene file: .*a scene \(.cfg\) or a mesh .* is wanted$' balloon-sim cube.oct
+
+# A sculpture is not inflated itself.
+printf 'BALLOON\000oct' >fox.oct
+refused 1 'fox.oct: is a sculpture; balloon-surface makes the mesh' balloon-sim fox.oct --hash
