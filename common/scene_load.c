@@ -244,10 +244,9 @@ static enum status parse_file(const char *path, const struct bytes *text, struct
     if (strlen((const char *)text->data) != text->size)
         status = error_set(
             err, STATUS_INPUT,
-            file_has_extension(path, "oct")
-                ? "%s: is a sculpture; balloon-surface makes the mesh of it that is inflated"
-                : "%s: is not a scene file: it is not text; a scene (.cfg) or a mesh (.ply, .stl, .obj) is wanted",
-            path);
+            "%s: is not a scene file: it is %s; a scene (.cfg) or a mesh (.ply, .stl, .obj) is wanted", path,
+            file_has_extension(path, "oct") ? "a sculpture, of which balloon-surface makes a mesh"
+                                            : "not text");
     else
         status = scene_parse_text(&config, path, (const char *)text->data, err);
     if (!status)
