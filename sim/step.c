@@ -100,7 +100,8 @@ void sim_forces_then(struct sim *sim, struct sim_move *move)
 static void count_overlong(struct sim *sim, const struct sim_part *part, void *context)
 {
     (void)context;
-    sim->overlong[part - sim->parts] = sim->kernels->count_overlong(sim, part);
+    const bool tears = part->balloon->fracture; /* its skin gives way in another manner */
+    sim->overlong[part - sim->parts] = tears ? 0 : sim->kernels->count_overlong(sim, part);
 }
 
 /* Part 2: edges longer than the threshold let go. Most steps have none. */
@@ -111,8 +112,6 @@ static void break_edges(struct sim *sim)
     sim_each_part(sim, count_overlong, NULL);
     for (size_t i = 0; i < sim->part_count; i++) {
         const struct sim_part *part = &sim->parts[i];
-        if (part->balloon->fracture) /* its skin tears in another way */
-            continue;
         for (uint32_t e = part->edge_begin; e < part->edge_end && sim->overlong[i]; e++)
             if (sim->edge_active[e] && sim_edge_length(sim, e) > sim_threshold(sim, part->balloon, e))
                 sim_break_edge(sim, e);
