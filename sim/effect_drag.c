@@ -193,7 +193,7 @@ static void after(struct sim *sim, struct sim_balloon *balloon)
         return;
     const double speed = fastest(sim);
     if (!is_bounded(sim, speed, speed))
-        guard_outdated(sim);
+        guard_bound_outdated(sim);
 }
 
 /* The wind's work is F . wind; what the air takes of the relative motion is F . w, never below 0. */
