@@ -59,7 +59,7 @@ static const struct cost {
     {"ground", "where points were; a look at those that are near", {4, 0, 0}, {0, 0, 0}, {0, 0, 0}},
     {"obstacles", "where points were; a look at those that are near", {4, 0, 0}, {0, 0, 0}, {0, 0, 0}},
     {"contact",
-     "1300 bytes a triangle, and where points were; while nothing is near anything a look at each point, and now and then at all "
+     "1150 bytes a triangle, and where points were; while nothing is near anything a look at each point, and now and then at all "
      "triangles (folded skin takes many times that)",
      {4, 4, 0},
      {0, 0, 0},
