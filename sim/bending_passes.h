@@ -45,7 +45,7 @@ struct hinge_work {
     double *pull;
     double damping;
     const double *shrink;
-    unsigned char *crushed; /* what becomes known of the hinges; NULL: no triangle is */
+    unsigned char *crushed; /* becomes 1 of a hinge with a crushed triangle, else 0; NULL: no triangle is */
     bool cut;
 };
 
@@ -140,10 +140,10 @@ INLINE lanes put_pulls(const struct hinge_work *w, const struct bending_view *v,
     size_t hinge[4];
     list_four(first, count, hinge);
     struct folds f = folds_of(w, hinge, damped);
-    if (w->crushed)
-        memset(w->crushed + first, 0, count);
     if (w->cut || count < 4 || !four_are_set(&w->active[first]) || (w->crushed && lanes_any(f.doubtful)))
         leave_out(w, v, (uint32_t)first, count, &f);
+    else if (w->crushed)
+        memset(w->crushed + first, 0, count);
     put_four(f.pull, w->pull + first, count);
     return f.slope;
 }
