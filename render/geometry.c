@@ -56,14 +56,6 @@ static bool is_drawn(const struct render_skin *skin, uint32_t t)
     return !skin->active || skin->active[t];
 }
 
-static bool is_whole(const struct render_skin *skin)
-{
-    uint32_t t = 0;
-    while (t < skin->mesh->triangle_count && is_drawn(skin, t))
-        t++;
-    return t == skin->mesh->triangle_count;
-}
-
 static enum status check_triangle(const struct building *b, uint32_t t, struct error *err)
 {
     const struct render_skin *skin = b->skin;
@@ -203,36 +195,6 @@ static bool facet_normal(const struct building *b, uint32_t t, double facet[3])
     return true;
 }
 
-/* Distances are positive floats, whose bits sort like the numbers. */
-static uint32_t nearness_of(const double square_distance)
-{
-    float key = (float)square_distance;
-    uint32_t bits;
-    memcpy(&bits, &key, sizeof bits);
-    return ~bits;
-}
-
-/* The square distance by which a triangle is ordered. Of torn skin that of its middle; of closed skin, which
- * is seen from outside, of its nearest corner where its outside is seen, and of its farthest where its inside
- * is: what lies close behind its outside, as where it is pressed flat, is its inside, and by the middles it
- * would show through at random. */
-static double place_in_order(double corner[3][3], double closed)
-{
-    double a[3], b[3], normal[3], middle[3];
-    vec3_sub(corner[1], corner[0], a);
-    vec3_sub(corner[2], corner[0], b);
-    vec3_cross(a, b, normal);
-    const bool outside = vec3_dot(normal, corner[0]) < 0;
-    double end = vec3_dot(corner[0], corner[0]);
-    for (int k = 1; k < 3; k++) {
-        const double square = vec3_dot(corner[k], corner[k]);
-        end = outside ? fmin(end, square) : fmax(end, square);
-    }
-    for (int i = 0; i < 3; i++)
-        middle[i] = (corner[0][i] + corner[1][i] + corner[2][i]) / 3;
-    return closed * end + (1 - closed) * vec3_dot(middle, middle);
-}
-
 /* Widens what is in sight by a corner; one beside or behind the eye may be seen anywhere. */
 static void see_corner(struct geometry *g, const float position[3])
 {
@@ -252,7 +214,7 @@ static void add_triangle(struct building *b, uint32_t t)
     double facet[3];
     if (!facet_normal(b, t, facet))
         return;
-    struct geometry_triangle triangle;
+    struct order_triangle triangle;
     double corner[3][3];
     bool opaque = true;
     for (int k = 0; k < 3; k++) {
@@ -263,7 +225,7 @@ static void add_triangle(struct building *b, uint32_t t)
             corner[k][i] = (double)vertex->position[i];
         see_corner(g, vertex->position);
     }
-    triangle.nearness = nearness_of(place_in_order(corner, b->closed));
+    triangle.nearness = order_nearness(corner, b->closed);
     if (opaque)
         g->opaque.items[g->opaque.count++] = triangle;
     else
@@ -292,7 +254,7 @@ static enum status add_skin(struct building *b, struct error *err)
         return error_no_memory(err, "the triangles to draw");
     if (b->is_latex)
         latex_measure(&b->latex, b->skin, g->fans.items);
-    b->closed = b->is_latex ? (double)b->latex.closed : is_whole(b->skin);
+    b->closed = b->is_latex ? (double)b->latex.closed : order_is_whole(b->skin);
     b->colour[3] = (uint16_t)lrintf(b->latex.closed * 65535);
     b->first_vertex = (uint32_t)g->vertices.count;
     average_at_points(b);
@@ -301,42 +263,6 @@ static enum status add_skin(struct building *b, struct error *err)
     for (uint32_t t = 0; t < mesh->triangle_count; t++)
         if (is_drawn(b->skin, t))
             add_triangle(b, t);
-    return STATUS_OK;
-}
-
-/* Least significant digit first, 11 bits at a time. */
-void geometry_sort(struct geometry_triangle *triangles, struct geometry_triangle *spare, size_t count)
-{
-    struct geometry_triangle *from = triangles, *to = spare;
-    for (int shift = 0; shift < 33; shift += 11) {
-        size_t start[2049] = {0};
-        for (size_t i = 0; i < count; i++)
-            start[(from[i].nearness >> shift & 2047) + 1]++;
-        for (int digit = 0; digit < 2048; digit++)
-            start[digit + 1] += start[digit];
-        for (size_t i = 0; i < count; i++)
-            to[start[from[i].nearness >> shift & 2047]++] = from[i];
-        struct geometry_triangle *swap = from;
-        from = to;
-        to = swap;
-    }
-    if (count)
-        memcpy(triangles, spare, count * sizeof *triangles);
-}
-
-static enum status order_triangles(struct geometry *g, bool sorted, struct error *err)
-{
-    size_t opaque = g->opaque.count, translucent = g->translucent.count;
-    g->indices.count = g->spare.count = 0;
-    if (!ARRAY_RESERVE(&g->spare, translucent) || !ARRAY_RESERVE(&g->indices, 3 * (opaque + translucent)))
-        return error_no_memory(err, "the triangles' order");
-    if (sorted)
-        geometry_sort(g->translucent.items, g->spare.items, translucent);
-    for (size_t i = 0; i < opaque; i++)
-        memcpy(g->indices.items + 3 * i, g->opaque.items[i].vertex, 3 * sizeof(uint32_t));
-    for (size_t i = 0; i < translucent; i++)
-        memcpy(g->indices.items + 3 * (opaque + i), g->translucent.items[i].vertex, 3 * sizeof(uint32_t));
-    g->indices.count = 3 * (opaque + translucent);
     return STATUS_OK;
 }
 
@@ -384,7 +310,7 @@ enum status geometry_build(struct geometry *g, const struct render_view *view,
     }
     g->farthest = fmin(fmax(g->farthest * 1.01, 2 * nearest_drawn), farthest_drawn);
     g->nearest = fmin(fmax(g->nearest * 0.99, nearest_drawn), g->farthest / 2);
-    return order_triangles(g, view->order == RENDER_SORT, err);
+    return order_indices(g, view->order == RENDER_SORT, err);
 }
 
 void geometry_clear(struct geometry *g)

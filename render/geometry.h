@@ -3,13 +3,14 @@
  * ones first, translucent ones behind them in the order they are drawn.
  *
  *     struct geometry geometry = {0};
- *     if (geometry_build(&geometry, view, skins, count, err)) ...    once a frame; keeps its memory
+ *     if (geometry_build(&geometry, view, skins, count, NULL, 0, err)) ...    once a frame; keeps its memory
  *     geometry_clear(&geometry);
  */
 #ifndef RENDER_GEOMETRY_H
 #define RENDER_GEOMETRY_H
 
 #include "render/camera.h"
+#include "render/order.h"
 #include "render/render.h"
 
 #include <stdint.h>
@@ -18,12 +19,6 @@ struct geometry_vertex {
     float position[3], normal[3]; /* in camera space; the normal outward, unit length or nearly so */
     float film, gloss;            /* opacity and shininess; of latex optical depth over K + S and roughness */
     uint16_t colour[4];           /* linear, 65535 = 1; the last: how closed the latex is */
-};
-
-/* A triangle on its way into the index array. */
-struct geometry_triangle {
-    uint32_t vertex[3];
-    uint32_t nearness; /* larger is nearer: the order to draw in; the bits of a float upside down */
 };
 
 /* What tells whether the triangles around a point close: sums over them of the difference between their other
@@ -54,7 +49,7 @@ struct geometry {
         size_t count, capacity;
     } vertices;
     struct {
-        struct geometry_triangle *items;
+        struct order_triangle *items;
         size_t count, capacity;
     } opaque, translucent, spare;
     struct {
@@ -92,9 +87,6 @@ float latex_roughness(const struct geometry_latex *latex, float stretch);
 bool latex_is_rim(const struct geometry_fan *fan);
 extern const float latex_rim;    /* how much thicker */
 extern const float latex_opaque; /* film from which on nothing shows through */
-
-/* Sorts by nearness, farthest first; spare has room for as many. Equal ones keep their order. */
-void geometry_sort(struct geometry_triangle *triangles, struct geometry_triangle *spare, size_t count);
 
 /* Lays the skins' shadow on the floor y = height. shadow.c */
 void geometry_cast_shadow(struct geometry_shadow *shadow, const struct camera_space *space, double height,

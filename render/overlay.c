@@ -186,9 +186,11 @@ static enum status add_boxes(struct overlay *overlay, const struct render_scene 
 {
     if (!ARRAY_RESERVE(&overlay->text, 4 * scene->box_count))
         return error_no_memory(err, "the boxes to draw");
-    for (const struct render_box *box = scene->boxes; box < scene->boxes + scene->box_count; box++)
+    for (size_t i = 0; i < scene->box_count; i++) {
+        const struct render_box *box = &scene->boxes[i];
         add_rectangle(overlay, (const int[4]){box->x, box->y, box->width, box->height}, 1, 0, 0,
                       (const float[4]){box->colour[0], box->colour[1], box->colour[2], box->opacity});
+    }
     return STATUS_OK;
 }
 

@@ -108,14 +108,18 @@ int sheet_choose(const struct sheet *sheet, int chosen[SHEET_MOMENTS])
     return count;
 }
 
-/* As many decimals as tell one moment from the next. */
-static int decimals_for(const struct sheet *sheet)
+int sheet_decimals(const struct sheet *sheet, const int chosen[], int count)
 {
-    double span = sheet->moments[sheet->count - 1].time - sheet->moments[0].time;
-    if (!(span > 0))
+    double least = INFINITY;
+    for (int k = 1; k < count; k++) {
+        const double gap = sheet->moments[chosen[k]].time - sheet->moments[chosen[k - 1]].time;
+        if (gap > 0)
+            least = fmin(least, gap);
+    }
+    if (least == INFINITY)
         return 3; /* all of one moment */
-    double decimals = -floor(log10(span / (SHEET_MOMENTS - 1)));
-    return decimals > 0 && decimals < 7 ? (int)decimals : 0;
+    const double decimals = ceil(-log10(least) - 1e-9);
+    return (int)fmin(fmax(decimals, 0), 6);
 }
 
 static void draw_tile(struct image *out, const struct sheet_moment *moment, int left, int top, int decimals)
@@ -135,6 +139,7 @@ enum status sheet_draw(const struct sheet *sheet, struct image *out, struct erro
     if (!sheet->count)
         return error_set(err, STATUS_RANGE, "a contact sheet needs at least one picture");
     int chosen[SHEET_MOMENTS], count = sheet_choose(sheet, chosen);
+    const int decimals = sheet_decimals(sheet, chosen, count);
     int columns = count < SHEET_COLUMNS ? count : SHEET_COLUMNS, rows = (count + columns - 1) / columns;
     int width = sheet->moments[0].image.width, height = sheet->moments[0].image.height;
     enum status status = image_init(out, columns * (width + GAP) + GAP, rows * (height + GAP) + GAP, err);
@@ -143,7 +148,7 @@ enum status sheet_draw(const struct sheet *sheet, struct image *out, struct erro
     memset(out->rgb, 0xff, 3 * (size_t)out->width * (size_t)out->height);
     for (int k = 0; k < count; k++)
         draw_tile(out, &sheet->moments[chosen[k]], GAP + k % columns * (width + GAP),
-                  GAP + k / columns * (height + GAP), decimals_for(sheet));
+                  GAP + k / columns * (height + GAP), decimals);
     return STATUS_OK;
 }
 

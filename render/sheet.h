@@ -38,6 +38,9 @@ enum status sheet_draw(const struct sheet *sheet, struct image *out, struct erro
 /* The moments it shows, by their index, in `chosen`; returns how many. */
 int sheet_choose(const struct sheet *sheet, int chosen[SHEET_MOMENTS]);
 
+/* As many decimals of their times as tell each of the chosen moments from the next, 6 at most. */
+int sheet_decimals(const struct sheet *sheet, const int chosen[], int count);
+
 void sheet_clear(struct sheet *sheet);
 
 /* Writes a line of text in dark grey with its upper left corner at x, y; each dot of the letters (font.h) is

@@ -187,7 +187,7 @@ static void share_of_sorting(struct scene *scene, const char *style)
         bench_check(geometry_build(&geometry, &scene->view, &skin, 1, NULL, 0, &err), &err);
         scene->view.order = RENDER_SORT;
         const double begun = bench_thread_seconds();
-        geometry_sort(geometry.translucent.items, geometry.spare.items, geometry.translucent.count);
+        order_sort(geometry.translucent.items, geometry.spare.items, geometry.translucent.count);
         const double ordered = bench_thread_seconds();
         for (int eye = 0; eye < count && cells_are_worth_it(&geometry, &scene->view); eye++)
             bench_check(cells_build(&cells[eye], &geometry, &eyes[eye], &err), &err);

@@ -48,6 +48,25 @@ static void a_still_run_is_spaced_evenly_in_time(void **state)
     sheet_clear(&sheet);
 }
 
+/* A run of 14 s whose changes crowd at its start: no two labels are the same. */
+static void times_are_written_so_that_each_is_told_from_the_next(void **state)
+{
+    (void)state;
+    static const struct {
+        double time[4];
+        int decimals;
+    } cases[] = {{{0, 0.2, 0.4, 14}, 1},   {{0, 0.125, 0.25, 14}, 1}, {{0, 0.0125, 2, 14}, 2},
+                 {{0, 1, 2, 3}, 0},        {{0, 10, 40, 90}, 0},      {{5, 5, 5, 5}, 3},
+                 {{0, 0.999999, 2, 3}, 1}, {{0, 1e-12, 1, 2}, 6}};
+    const int chosen[] = {0, 1, 2, 3};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct sheet sheet = {.count = 4};
+        for (int k = 0; k < 4; k++)
+            sheet.moments[k].time = cases[i].time[k];
+        assert_int_equal(sheet_decimals(&sheet, chosen, 4), cases[i].decimals);
+    }
+}
+
 static void a_sheet_of_few_large_pictures_shows_them_all_reduced(void **state)
 {
     (void)state;
@@ -88,6 +107,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_sheet_shows_what_changes_evenly),
         cmocka_unit_test(a_still_run_is_spaced_evenly_in_time),
+        cmocka_unit_test(times_are_written_so_that_each_is_told_from_the_next),
         cmocka_unit_test(a_sheet_of_few_large_pictures_shows_them_all_reduced),
         cmocka_unit_test(labels_are_cut_off_at_the_edges),
     };
