@@ -22,7 +22,15 @@
 #include <stdint.h>
 #include <stdio.h>
 
+/* Which keys of a block somebody wrote down, in the order of scene_fields.h: the key's line in the
+ * scene's own file, or SCENE_NOT_IN_FILE where it came by scene_set() or an @include; 0: nobody did. */
+enum { SCENE_KEYS_MAX = 16, SCENE_NOT_IN_FILE = -1 };
+struct scene_written {
+    int line[SCENE_KEYS_MAX];
+};
+
 struct scene_time {
+    struct scene_written written;
     double step, end; /* s */
     int integrator;   /* index into scene_integrator_names */
     int guard;        /* enum scene_guard */
@@ -30,6 +38,7 @@ struct scene_time {
 };
 
 struct scene_view {
+    struct scene_written written;
     int size[2];           /* pixels of the whole picture */
     double camera[3];      /* the eye, from the target, in radii of what is seen at rest */
     double target[3];      /* from the centre of the balloons at rest, in the same radii */
@@ -53,12 +62,14 @@ struct scene_profile {
 struct scene_spring_by_height {
     bool on;
     unsigned line;
+    struct scene_written written;
     struct scene_profile profile; /* height, 0 lowest to 1 highest -> factor */
 };
 
 struct scene_rip {
     bool on;
     unsigned line;
+    struct scene_written written;
     double at, stretch;  /* opens once both are reached */
     double place[3];     /* direction from the balloon's centre */
     double direction[3]; /* of the cut, as seen there */
@@ -68,6 +79,7 @@ struct scene_rip {
 struct scene_fracture {
     bool on;
     unsigned line;
+    struct scene_written written;
     int mode; /* enum scene_fracture_mode */
     double strength, toughness, weakness;
     int seed;
@@ -81,6 +93,7 @@ struct scene_fracture {
 struct scene_gas {
     bool on;
     unsigned line;
+    struct scene_written written;
     double ambient, fill; /* force/length^2; over what fills the rest volume */
     int process;          /* enum scene_process */
     double gamma, density, discharge;
@@ -93,6 +106,7 @@ struct scene_gas {
 struct scene_tube {
     bool on;
     unsigned line;
+    struct scene_written written;
     int to;
     double area, discharge;
 };
@@ -100,6 +114,7 @@ struct scene_tube {
 struct scene_pins {
     bool on;
     unsigned line;
+    struct scene_written written;
     double place[3], reach; /* direction from the balloon's centre; degrees */
     double until;           /* s */
 };
@@ -107,6 +122,7 @@ struct scene_pins {
 struct scene_string {
     bool on;
     unsigned line;
+    struct scene_written written;
     double place[3], reach; /* likewise */
     double to[3], slack;    /* in radii from the balloon's centre; over the first distance */
     double stiffness, damping, weight;
@@ -115,30 +131,35 @@ struct scene_string {
 struct scene_gravity {
     bool on;
     unsigned line;
+    struct scene_written written;
     double acceleration[3], air_density;
 };
 
 struct scene_drag {
     bool on;
     unsigned line;
+    struct scene_written written;
     double air_density, coefficient, wind[3];
 };
 
 struct scene_viscosity {
     bool on;
     unsigned line;
+    struct scene_written written;
     double ratio, time; /* of the arm's spring to the edge's; s */
 };
 
 struct scene_plasticity {
     bool on;
     unsigned line;
+    struct scene_written written;
     double yield, hardening; /* force; force/length */
 };
 
 struct scene_bending {
     bool on;
     unsigned line;
+    struct scene_written written;
     double stiffness, damping; /* force length; s */
     int rest;                  /* enum scene_rest */
 };
@@ -146,6 +167,7 @@ struct scene_bending {
 struct scene_membrane {
     bool on;
     unsigned line;
+    struct scene_written written;
     int law; /* enum scene_law */
     double shear_modulus, thickness, density;
     double mooney_ratio, gent_limit;
@@ -154,7 +176,8 @@ struct scene_membrane {
 };
 
 struct scene_balloon {
-    unsigned line;      /* in the file; 0: not by it */
+    unsigned line; /* in the file; 0: not by it */
+    struct scene_written written;
     char *mesh;         /* path; relative ones already joined to the scene's folder */
     double radius;      /* mean distance of the points from their centre; 0: as the mesh has it */
     double position[3]; /* of that centre */
@@ -164,7 +187,6 @@ struct scene_balloon {
     double threshold;          /* an edge lets go at this length over the mean rest length */
     double pressure;           /* force on each point, or on each unit of area */
     int pressure_on;           /* enum scene_pressure_on */
-    bool pressure_given;       /* somebody wrote it down */
     double colour[3];          /* sRGB, 0 to 1 */
     double opacity, shininess; /* at rest */
     struct scene_spring_by_height spring_by_height;
@@ -183,12 +205,14 @@ struct scene_balloon {
 struct scene_ground {
     bool on;
     unsigned line;
+    struct scene_written written;
     double height, normal[3], friction, bounce; /* a plane through (0, height, 0) */
 };
 
 /* Something firm that skin cannot enter. */
 struct scene_obstacles {
     unsigned line;
+    struct scene_written written;
     int shape; /* enum scene_shape */
     double place[3], radius, size[3], friction, bounce;
 };
@@ -196,12 +220,14 @@ struct scene_obstacles {
 /* A point that moves, and starts a tear where it meets skin. */
 struct scene_needles {
     unsigned line;
+    struct scene_written written;
     double at, from[3], velocity[3];
 };
 
 struct scene_contact {
     bool on;
     unsigned line;
+    struct scene_written written;
     double thickness, friction;
 };
 
@@ -210,8 +236,9 @@ enum { SCENE_CHANGES_MAX = 8 };
 /* Keys that change between two steps, as the paper's user changes them by hand (3.5). */
 struct scene_schedule {
     unsigned line; /* as above */
-    double at;     /* s */
-    int balloon;   /* which one; -1: all */
+    struct scene_written written;
+    double at;   /* s */
+    int balloon; /* which one; -1: all */
     size_t change_count;
     struct {
         const struct scene_field *field;
@@ -292,6 +319,11 @@ enum status scene_set(struct scene *scene, const char *assignment, struct error 
 /* What only the whole scene can tell: balloons without a mesh, a schedule for a balloon that is not there, an
  * end before the first step. Puts the schedule in the order of time. */
 enum status scene_check(struct scene *scene, struct error *err);
+
+/* What somebody wrote down, in the file or by scene_set(), and nothing goes by as the rest of the scene is:
+ * calls `say` with a line for each block and reason, "FILE:LINE: balloons[0]: spring, damping do nothing: a
+ * membrane stands in for the springs". For a scene that scene_check() has passed. */
+void scene_tell_idle(const struct scene *scene, void (*say)(const char *text, void *context), void *context);
 
 void scene_clear(struct scene *scene);
 

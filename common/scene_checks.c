@@ -18,7 +18,7 @@ enum status scene_contradiction(const struct scene *scene, size_t number, const 
     return error_set(err, STATUS_INPUT, "%s%s: balloons[%zu].%s: %s", scene->path, place, number, name, text);
 }
 
-static bool changes(const struct scene_schedule *entry, const char *key, size_t number)
+bool scene_changes(const struct scene_schedule *entry, const char *key, size_t number)
 {
     for (size_t i = 0; i < entry->change_count; i++)
         if (!strcmp(entry->change[i].field->key, key))
@@ -29,17 +29,19 @@ static bool changes(const struct scene_schedule *entry, const char *key, size_t 
 static enum status check_gas(const struct scene *scene, size_t number, struct error *err)
 {
     const struct scene_balloon *b = &scene->balloons[number];
+    const struct scene_block *block = scene_find_block("", "balloons");
+    const bool is_written = scene_line_of(block, b, scene_find_field(block, "pressure"));
     const unsigned line = b->gas.line;
     if (b->gas.ambient == 0)
         return scene_contradiction(scene, number, "gas", line, err,
                                    "give ambient, the pressure of the air outside (about 101325 in Pa)");
-    if (b->pressure_given && b->pressure != 0)
+    if (is_written && b->pressure != 0)
         return scene_contradiction(scene, number, "gas", line, err,
                                    "the gas makes the pressure, and pressure = %g gives another; leave "
                                    "out one of the two",
                                    b->pressure);
     for (size_t i = 0; i < scene->schedule_count; i++)
-        if (changes(&scene->schedule[i], "pressure", number))
+        if (scene_changes(&scene->schedule[i], "pressure", number))
             return scene_contradiction(scene, number, "gas", line, err,
                                        "the gas makes the pressure, which schedule[%zu] cannot change; "
                                        "let it change pump",
@@ -47,7 +49,7 @@ static enum status check_gas(const struct scene *scene, size_t number, struct er
     return STATUS_OK;
 }
 
-static bool has_gas(const struct scene *scene)
+bool scene_has_gas(const struct scene *scene)
 {
     for (size_t i = 0; i < scene->balloon_count; i++)
         if (scene->balloons[i].gas.on)
@@ -60,8 +62,8 @@ static enum status check_no_gas(const struct scene *scene, size_t number, struct
 {
     for (size_t i = 0; i < scene->schedule_count; i++) {
         const struct scene_schedule *entry = &scene->schedule[i];
-        if ((changes(entry, "pump", number) || changes(entry, "pump_until", number)) &&
-            (entry->balloon >= 0 || !has_gas(scene)))
+        if ((scene_changes(entry, "pump", number) || scene_changes(entry, "pump_until", number)) &&
+            (entry->balloon >= 0 || !scene_has_gas(scene)))
             return scene_contradiction(scene, number, "gas", entry->line, err,
                                        "schedule[%zu] turns its pump, but there is no gas; give "
                                        "gas = { ambient = ... }",

@@ -10,6 +10,12 @@ enum status scene_contradiction(const struct scene *scene, size_t number, const 
                                 struct error *err, const char *format, ...)
     __attribute__((format(printf, 6, 7)));
 
+/* Whether an entry of the schedule changes this key of this balloon. */
+bool scene_changes(const struct scene_schedule *entry, const char *key, size_t number);
+
+/* Whether any balloon has gas. */
+bool scene_has_gas(const struct scene *scene);
+
 /* Gas and tube of one balloon: what is missing, what cannot be had together, a pump without
  * gas, a tube to nowhere. */
 enum status scene_check_gas(const struct scene *scene, size_t number, struct error *err);

@@ -1,6 +1,7 @@
 #include "common/scene_fields.h"
 #include "common/scene.h"
 
+#include <assert.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -93,17 +94,17 @@ static const struct scene_field plasticity_fields[] = {SCENE_PLASTICITY_FIELDS(P
 static const struct scene_field fracture_fields[] = {SCENE_FRACTURE_FIELDS(FRACTURE_ROW)};
 static const struct scene_field schedule_fields[] = {SCENE_SCHEDULE_FIELDS(SCHEDULE_ROW)};
 
-#define FIELDS(list) list, sizeof(list) / sizeof(list)[0]
-#define CALLED(name) offsetof(struct scene_##name, on), offsetof(struct scene_##name, line)
-#define EFFECT(name) offsetof(struct scene_balloon, name), CALLED(name)
+#define FIELDS(list)  list, sizeof(list) / sizeof(list)[0]
+#define WRITTEN(name) offsetof(struct scene_##name, written)
+#define CALLED(name)  offsetof(struct scene_##name, on), offsetof(struct scene_##name, line), WRITTEN(name)
+#define EFFECT(name)  offsetof(struct scene_balloon, name), CALLED(name)
+#define ALWAYS(name)  offsetof(struct scene, name), SIZE_MAX, SIZE_MAX, WRITTEN(name)
+#define ITEM(name)    0, SIZE_MAX, offsetof(struct scene_##name, line), WRITTEN(name)
 
 const struct scene_block scene_blocks[] = {
-    {"time", "", false, FIELDS(time_fields), offsetof(struct scene, time), SIZE_MAX, SIZE_MAX,
-     "How time is cut into steps"},
-    {"view", "", false, FIELDS(view_fields), offsetof(struct scene, view), SIZE_MAX, SIZE_MAX,
-     "How the pictures are taken"},
-    {"balloons", "", true, FIELDS(balloon_fields), 0, SIZE_MAX, offsetof(struct scene_balloon, line),
-     "A list: one block { ... } a balloon"},
+    {"time", "", false, FIELDS(time_fields), ALWAYS(time), "How time is cut into steps"},
+    {"view", "", false, FIELDS(view_fields), ALWAYS(view), "How the pictures are taken"},
+    {"balloons", "", true, FIELDS(balloon_fields), ITEM(balloon), "A list: one block { ... } a balloon"},
     {"spring_by_height", "balloons", false, FIELDS(spring_by_height_fields), EFFECT(spring_by_height),
      "Spring constants that vary with height, as the skin's thickness does"},
     {"rip", "balloons", false, FIELDS(rip_fields), EFFECT(rip), "An artificial rip"},
@@ -126,15 +127,15 @@ const struct scene_block scene_blocks[] = {
      "The air resists what moves in it, or carries it along"},
     {"ground", "", false, FIELDS(ground_fields), offsetof(struct scene, ground), CALLED(ground),
      "A plane that skin cannot pass"},
-    {"obstacles", "", true, FIELDS(obstacles_fields), 0, SIZE_MAX, offsetof(struct scene_obstacles, line),
+    {"obstacles", "", true, FIELDS(obstacles_fields), ITEM(obstacles),
      "A list: spheres and boxes that skin cannot enter"},
-    {"needles", "", true, FIELDS(needles_fields), 0, SIZE_MAX, offsetof(struct scene_needles, line),
+    {"needles", "", true, FIELDS(needles_fields), ITEM(needles),
      "A list: points that move and start tears where they meet skin"},
     {"contact", "", false, FIELDS(contact_fields), offsetof(struct scene, contact), CALLED(contact),
      "Balloons do not pass through each other, nor through themselves"},
     {"fracture", "balloons", false, FIELDS(fracture_fields), EFFECT(fracture),
      "How the skin gives way; without the block as the paper has it"},
-    {"schedule", "", true, FIELDS(schedule_fields), 0, SIZE_MAX, offsetof(struct scene_schedule, line),
+    {"schedule", "", true, FIELDS(schedule_fields), ITEM(schedule),
      "A list: one block { at = ...; and the keys that change then }"},
 };
 const size_t scene_block_count = sizeof scene_blocks / sizeof scene_blocks[0];
@@ -153,4 +154,40 @@ const struct scene_field *scene_find_field(const struct scene_block *block, cons
         if (!strcmp(block->fields[i].key, key))
             return &block->fields[i];
     return NULL;
+}
+
+int scene_line_of(const struct scene_block *block, const void *target, const struct scene_field *field)
+{
+    const struct scene_written *written = (const struct scene_written *)((const char *)target +
+                                                                         block->written_offset);
+    assert(block->field_count <= SCENE_KEYS_MAX);
+    return written->line[field - block->fields];
+}
+
+static const struct scene_list lists[] = {
+#define LIST(name, prefix)                                                                  \
+    {                                                                                       \
+#name, offsetof(struct scene, name), offsetof(struct scene, prefix##_count),        \
+            offsetof(struct scene, prefix##_capacity), sizeof *((struct scene *)NULL)->name \
+    }
+    LIST(balloons, balloon),
+    LIST(schedule, schedule),
+    LIST(obstacles, obstacles),
+    LIST(needles, needles),
+#undef LIST
+};
+
+const struct scene_list *scene_find_list(const struct scene_block *block)
+{
+    const struct scene_list *list = lists;
+    while (strcmp(list->name, block->name))
+        list++;
+    return list;
+}
+
+void *scene_list_item(const struct scene *scene, const struct scene_list *list, size_t index)
+{
+    char *items;
+    memcpy(&items, (const char *)scene + list->items, sizeof items);
+    return items + index * list->size;
 }

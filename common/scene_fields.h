@@ -239,6 +239,8 @@ enum {
     SCENE_FREE = 2, /* no state depends on it: pictures, the end */
 };
 
+struct scene;
+
 struct scene_field {
     const char *key;
     enum scene_type type;
@@ -257,9 +259,10 @@ struct scene_block {
     bool list;          /* a list of blocks: balloons, schedule */
     const struct scene_field *fields;
     size_t field_count;
-    size_t offset;      /* of the block in its parent's struct (not of a list) */
-    size_t on_offset;   /* of its `bool on` in the block's struct; SIZE_MAX: always on */
-    size_t line_offset; /* of its `unsigned line`, likewise */
+    size_t offset;         /* of the block in its parent's struct (not of a list) */
+    size_t on_offset;      /* of its `bool on` in the block's struct; SIZE_MAX: always on */
+    size_t line_offset;    /* of its `unsigned line`, likewise */
+    size_t written_offset; /* of its `struct scene_written` */
     const char *meaning;
 };
 
@@ -269,5 +272,18 @@ extern const size_t scene_block_count;
 /* The block of that name in that parent, or NULL. */
 const struct scene_block *scene_find_block(const char *parent, const char *name);
 const struct scene_field *scene_find_field(const struct scene_block *block, const char *key);
+
+/* Where in the scene's file this key of `target`, a block's struct, was written (struct scene_written). */
+int scene_line_of(const struct scene_block *block, const void *target, const struct scene_field *field);
+
+/* Where a scene keeps a list of blocks. */
+struct scene_list {
+    const char *name;
+    size_t items, count, capacity; /* offsets in struct scene */
+    size_t size;                   /* of an item */
+};
+
+const struct scene_list *scene_find_list(const struct scene_block *block); /* a list's; it has one */
+void *scene_list_item(const struct scene *scene, const struct scene_list *list, size_t index);
 
 #endif

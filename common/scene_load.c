@@ -45,38 +45,6 @@ static enum status set_scene_defaults(struct scene *scene, struct error *err)
     return status;
 }
 
-/* The lists of blocks: where a scene keeps each. */
-static const struct list {
-    const char *name;
-    size_t items, count, capacity, size;
-} lists[] = {
-#define LIST(name, prefix)                                                                  \
-    {                                                                                       \
-#name, offsetof(struct scene, name), offsetof(struct scene, prefix##_count),        \
-            offsetof(struct scene, prefix##_capacity), sizeof *((struct scene *)NULL)->name \
-    }
-    LIST(balloons, balloon),
-    LIST(schedule, schedule),
-    LIST(obstacles, obstacles),
-    LIST(needles, needles),
-#undef LIST
-};
-
-static const struct list *find_list(const struct scene_block *block)
-{
-    const struct list *list = lists;
-    while (strcmp(list->name, block->name))
-        list++;
-    return list;
-}
-
-static void *item_of(const struct scene *scene, const struct list *list, size_t index)
-{
-    char *items;
-    memcpy(&items, (const char *)scene + list->items, sizeof items);
-    return items + index * list->size;
-}
-
 static enum status set_effects_defaults(struct scene_balloon *balloon, struct error *err)
 {
     enum status status = STATUS_OK;
@@ -90,12 +58,12 @@ static enum status set_effects_defaults(struct scene_balloon *balloon, struct er
 static enum status add_item(struct scene *scene, const struct scene_block *block, void **item,
                             struct error *err)
 {
-    const struct list *list = find_list(block);
+    const struct scene_list *list = scene_find_list(block);
     char *base = (char *)scene;
     size_t *count = (size_t *)(base + list->count), *capacity = (size_t *)(base + list->capacity);
     if (*count == *capacity && !array_grow(base + list->items, *count, 1, list->size, capacity))
         return error_no_memory(err, block->name);
-    *item = item_of(scene, list, (*count)++);
+    *item = scene_list_item(scene, list, (*count)++);
     memset(*item, 0, list->size);
     if (!strcmp(block->name, "balloons")) {
         enum status status = set_effects_defaults(*item, err);
@@ -116,11 +84,18 @@ static void call_for(const struct scene_block *block, void *target, const config
         *(unsigned *)((char *)target + block->line_offset) = config_setting_source_line(group);
 }
 
-/* Whether a pressure was wanted that a scene cannot have. */
-static void note_pressure(const struct scene_block *block, void *target, const char *key)
+/* Reads one key, and keeps that and where it was written. */
+static enum status read_field(const struct scene_block *block, const struct scene_field *field, void *target,
+                              const config_setting_t *value, const struct scene_source *source,
+                              struct error *err)
 {
-    if (!strcmp(block->name, "balloons") && !strcmp(key, "pressure"))
-        ((struct scene_balloon *)target)->pressure_given = true;
+    const enum status status = scene_read_value(field, value, source, target, err);
+    struct scene_written *written = (struct scene_written *)((char *)target + block->written_offset);
+    const bool in_file = source->file && !config_setting_source_file(value);
+    if (!status)
+        written->line[field - block->fields] = in_file ? (int)config_setting_source_line(value)
+                                                       : SCENE_NOT_IN_FILE;
+    return status;
 }
 
 /* Where a key is looked for that changes at a time. */
@@ -179,9 +154,8 @@ static enum status read_key(const struct scene_block *block, void *target, const
                             const char *key, const struct scene_source *source, struct error *err)
 {
     const struct scene_field *field = scene_find_field(block, key);
-    note_pressure(block, target, key);
     if (field)
-        return scene_read_value(field, value, source, target, err);
+        return read_field(block, field, target, value, source, err);
     if (!strcmp(block->name, "schedule"))
         return read_change(value, key, source, target, err);
     const struct scene_block *effect = scene_find_block(block->name, key);
@@ -315,7 +289,7 @@ static bool take_name(const char **path, char *name, size_t size, long *index)
 static enum status list_item(struct scene *scene, const struct scene_block *block, long index, void **item,
                              struct error *err)
 {
-    const struct list *list = find_list(block);
+    const struct scene_list *list = scene_find_list(block);
     const size_t count = *(const size_t *)((const char *)scene + list->count);
     if (index < 0 || (size_t)index > count)
         return error_set(err, STATUS_INPUT,
@@ -323,7 +297,7 @@ static enum status list_item(struct scene *scene, const struct scene_block *bloc
                          count, count == 1 ? "entry" : "entries", block->name, block->name, count);
     if ((size_t)index == count)
         return add_item(scene, block, item, err);
-    *item = item_of(scene, list, (size_t)index);
+    *item = scene_list_item(scene, list, (size_t)index);
     return STATUS_OK;
 }
 

@@ -60,7 +60,7 @@ struct options {
     const char *file, *script, *import, *output, *picture;
     const char **exports;
     size_t export_count;
-    long depth, undo_megabytes; /* depth -1: not given */
+    long depth, undo_megabytes; /* depth -1, memory 0: not given */
     bool info, solid, recover;
 };
 
@@ -153,6 +153,8 @@ static enum status check_options(const struct options *options, struct error *er
                              options->exports[i]);
     if (options->solid && !options->import && !options->file)
         return error_set(err, STATUS_USAGE, "--solid: a new cube has no hollows; give FILE.oct or --import");
+    if (asks_for_result(options) && options->undo_megabytes)
+        command_note("--undo-memory does nothing: only the window undoes");
     if (!asks_for_result(options) && (options->script || options->import || options->solid))
         return error_set(err, STATUS_USAGE,
                          "nothing is done with the sculpture: give -o, --export, --render or --info");
@@ -328,7 +330,8 @@ static enum status open_window(const struct options *options, struct error *err)
         .path = options->file ? options->file : "sculpture.oct",
         .depth = options->depth >= 0 ? (unsigned)options->depth : DEPTH_DEFAULT,
         .recover = options->recover,
-        .undo_memory = (size_t)options->undo_megabytes << 20,
+        .undo_memory = (size_t)(options->undo_megabytes ? options->undo_megabytes : UNDO_MEGABYTES_DEFAULT)
+                       << 20,
     };
     return sculpt_window(&window, err);
 }
@@ -362,9 +365,7 @@ int main(int argc, char **argv)
         NULL,
         NULL};
     struct error err = {0};
-    struct options options = {.depth = -1,
-                              .undo_megabytes = UNDO_MEGABYTES_DEFAULT,
-                              .exports = array_new((size_t)argc, sizeof *options.exports)};
+    struct options options = {.depth = -1, .exports = array_new((size_t)argc, sizeof *options.exports)};
     command_begin("balloon-sculpt");
     signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is an error like a full disk */
     if (!options.exports) {

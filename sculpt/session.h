@@ -3,7 +3,7 @@
  * rays and keys in and draws what it finds here; whatever a hand does becomes operations of a chip script.
  *
  *     struct session session = {0};
- *     if (session_open(&session, "fox.oct", 6, &err)) ...
+ *     if (session_open(&session, "fox.oct", 6, false, &err)) ...
  *     session_aim(&session, origin, direction);                 the pointer moved
  *     session_press(&session, &err); session_drag(...); session_release(...);
  *     session_take_changes(&session, &regions);                 what to draw anew

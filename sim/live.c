@@ -133,6 +133,15 @@ bool live_pumps(const struct live *live)
     return live->sim->balloons->gas;
 }
 
+bool live_has_springs(const struct live *live)
+{
+    const struct sim *sim = live->sim;
+    for (size_t i = 0; i < sim->balloon_count; i++)
+        if (!sim->balloons[i].membrane)
+            return true;
+    return false;
+}
+
 const char *live_name(const struct live *live, enum live_dial dial)
 {
     static const char *const names[LIVE_DIALS] = {[LIVE_PRESSURE] = "pressure",

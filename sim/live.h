@@ -56,6 +56,9 @@ enum status live_step(struct live *live, struct error *err);
 /* Whether the first dial is the pump: the first balloon has gas. Below 0 it lets gas out. */
 bool live_pumps(const struct live *live);
 
+/* Whether any balloon has springs that a dial could turn: all skins may be membranes. */
+bool live_has_springs(const struct live *live);
+
 /* A dial's name, and the unit of its value to be written behind it. */
 const char *live_name(const struct live *live, enum live_dial dial);
 const char *live_unit(const struct live *live, enum live_dial dial);

@@ -34,6 +34,12 @@ static void note_repairs(const struct scene *scene, const struct mesh_report *re
     }
 }
 
+static void note(const char *text, void *context)
+{
+    (void)context;
+    command_note("%s", text);
+}
+
 /* Whether the boxes around two balloons share room. */
 static bool overlap(const struct sim *sim, const struct sim_balloon *a, const struct sim_balloon *b)
 {
@@ -138,6 +144,7 @@ static enum status perform(const struct options *options, struct error *err)
     if (!status)
         status = load_meshes(&scene, &meshes, err);
     if (!status) {
+        scene_tell_idle(&scene, note, NULL);
         const bool only_told = options->check || options->explain;
         if (options->accuracy_cost && !only_told)
             status = price_accuracy(&scene, meshes, options->accuracy_cost, err);

@@ -85,29 +85,63 @@ static const struct argp_option option_table[] = {
     {0},
 };
 
-/* What only a run from the start to the end gives; --log and --estimate go with a window too. */
-static const char *output_of(const struct options *o)
+/* The first of some options that was given; NULL: none was. */
+struct given {
+    const char *name;
+    bool wanted;
+};
+
+static const char *first_given(const struct given *options, size_t count)
 {
-    const struct {
-        const char *name;
-        bool wanted;
-    } outputs[] = {{"--frames", o->frames},
-                   {"--movie", o->movie},
-                   {"--contact-sheet", o->sheet},
-                   {"--checkpoint", o->checkpoint},
-                   {"--resume", o->resume},
-                   {"-o", o->mesh},
-                   {"--pieces", o->pieces},
-                   {"--mesh-series", o->series},
-                   {"--point-cache", o->cache},
-                   {"--hash", o->hash},
-                   {"--plot", o->plot},
-                   {"--accuracy-cost", o->accuracy_cost},
-                   {"--effect-cost", o->effect_cost}};
-    for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; i++)
-        if (outputs[i].wanted)
-            return outputs[i].name;
+    for (size_t i = 0; i < count; i++)
+        if (options[i].wanted)
+            return options[i].name;
     return NULL;
+}
+
+#define FIRST_GIVEN(list) first_given(list, sizeof(list) / sizeof(list)[0])
+
+/* What only a run from the start to the end gives; --log and --estimate go with a window too. */
+static const char *run_option_of(const struct options *o)
+{
+    const struct given given[] = {{"--frames", o->frames},
+                                  {"--movie", o->movie},
+                                  {"--contact-sheet", o->sheet},
+                                  {"--checkpoint", o->checkpoint},
+                                  {"--resume", o->resume},
+                                  {"-o", o->mesh},
+                                  {"--pieces", o->pieces},
+                                  {"--mesh-series", o->series},
+                                  {"--point-cache", o->cache},
+                                  {"--hash", o->hash},
+                                  {"--plot", o->plot}};
+    return FIRST_GIVEN(given);
+}
+
+/* What a run, or a window, has besides. */
+static const char *any_run_option_of(const struct options *o)
+{
+    const struct given given[] = {
+        {"--log", o->log}, {"--estimate", o->estimate}, {"--threads", o->threads > 0}};
+    const char *of_run = run_option_of(o);
+    return of_run ? of_run : FIRST_GIVEN(given);
+}
+
+/* What takes the place of a run. */
+static const char *cost_option_of(const struct options *o)
+{
+    const struct given given[] = {{"--accuracy-cost", o->accuracy_cost}, {"--effect-cost", o->effect_cost}};
+    return FIRST_GIVEN(given);
+}
+
+static void choose_window(struct options *o, struct argp_state *state)
+{
+    const char *cost = cost_option_of(o), *run = run_option_of(o), *other = run ? run : cost;
+    if (o->window && other)
+        argp_error(state, "%s runs to the end without a window: leave one of the two out", other);
+    o->window = !other && (o->window || (!o->log && !o->estimate));
+    if (cost && any_run_option_of(o))
+        command_note("%s is for a run, whose place %s takes: it does nothing", any_run_option_of(o), cost);
 }
 
 /* What only all of them together can tell. */
@@ -117,13 +151,11 @@ static void finish(struct options *o, struct argp_state *state)
         argp_error(state, "give a scene (.cfg) or a mesh (.ply, .stl, .obj)");
     if (o->estimate && o->resume)
         argp_error(state, "--estimate measures a run from its start: leave --resume out");
-    if (o->window && output_of(o))
-        argp_error(state, "%s runs to the end without a window: leave one of the two out", output_of(o));
-    o->window = !output_of(o) && (o->window || (!o->log && !o->estimate));
     if (o->accuracy_cost && o->effect_cost)
         argp_error(
             state,
             "--accuracy-cost and --effect-cost each take the place of a run: leave one of the two out");
+    choose_window(o, state);
     if (o->turntable && !o->frames && !o->movie && !o->sheet)
         argp_error(state, "--turntable: give --frames DIR, --movie FILE or --contact-sheet FILE too");
     if ((o->series_vtp || o->series_constant) && !o->series)

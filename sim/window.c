@@ -87,6 +87,10 @@ void app_step(struct app *app)
 
 void app_turn(struct app *app, enum live_dial dial, double value)
 {
+    if (dial == LIVE_SPRINGS && !live_has_springs(&app->live)) {
+        app_say(app, "springs: there are none; the skin is a membrane");
+        return;
+    }
     live_turn(&app->live, dial, value);
     app->touched = app->touched || dial != LIVE_PACE;
     app->stale = true;

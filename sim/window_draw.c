@@ -16,7 +16,7 @@ static const float scale_colours[][3] = {{0.02f, 0.03f, 0.20f},
                                          {0.62f, 0.01f, 0.01f}};
 static const float wire_colour[3] = {0.02f, 0.02f, 0.025f};
 
-/* Where no threshold says which stretch is the last, the scale ends here. */
+/* Where neither threshold nor strength says which stretch is the last, the scale ends here. */
 static const double longest_scale = 6;
 
 static const double count_seconds = 0.5; /* pictures are counted over */
@@ -31,8 +31,10 @@ static const double first_wait = 4, longest_wait = 64;
 double app_stretch_most(const struct app *app)
 {
     const struct sim *sim = app->live.sim;
-    const double threshold = sim->settings[0].threshold_length / sim->balloons[0].mean_rest_length;
-    return fmin(fmax(threshold, 1.01), longest_scale);
+    const struct sim_balloon *first = sim->balloons;
+    const double last = first->fracture ? first->scene->fracture.strength
+                                        : first->now->threshold_length / first->mean_rest_length;
+    return fmin(fmax(last, 1.01), longest_scale);
 }
 
 /* 0 at rest and below, 1 at the end of the scale. */

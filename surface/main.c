@@ -65,7 +65,7 @@ static const struct argp_option option_list[] = {
 
 struct arguments {
     const char *input, *output, *render, *cost;
-    bool info, json, sigma_in_units;
+    bool info, json, sigma_in_units, seed_given;
     struct surface_options options;
 };
 
@@ -129,6 +129,8 @@ static void check_arguments(const struct arguments *arguments, struct argp_state
         argp_error(state, "--render %s: the name must end in .png", arguments->render);
     if (options->cube_size > 0 && options->triangles)
         argp_error(state, "--cube-size and --triangles: give one of them, each decides the other");
+    if (arguments->seed_given && options->seeds != SURFACE_RANDOM)
+        command_note("--seed does nothing: there are random points with --seeds random only");
     if (options->field.fields_per_cube == 0 && options->field.fields_per_area == 0)
         argp_error(state,
                    "--fields-per-cube 0: then --fields-per-area must be above 0, or there is no field");
@@ -169,6 +171,7 @@ static error_t parse_dial(int key, const char *argument, struct argp_state *stat
         break;
     case KEY_SEED:
         options->seed = (uint64_t)command_whole(state, "--seed", argument, 0, INT64_MAX);
+        arguments->seed_given = true;
         break;
     default:
         return ARGP_ERR_UNKNOWN;

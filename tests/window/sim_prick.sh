@@ -1,9 +1,10 @@
 # On a skin that tears along cracks a click begins one, which runs on by itself; and the order of its layers is seen.
 SPLIT=12 # 1152 triangles
 . "$CASES/live.sh"
+sed -i 's/ point_mass = 1;//' ball.cfg # rubber has its own
 
 # Filled so far that cracks run, but none begins by itself.
-rubber="--set balloons[0].pressure=0 --set balloons[0].point_mass=0.11 --set balloons[0].gas.ambient=6
+rubber="--set balloons[0].pressure=0 --set balloons[0].gas.ambient=6
     --set balloons[0].gas.fill=1.6 --set balloons[0].gas.density=2.2e-5 --set balloons[0].membrane.shear_modulus=20
     --set balloons[0].membrane.thickness=0.45 --set balloons[0].membrane.density=0.0144
     --set balloons[0].membrane.viscosity=1.2 --set balloons[0].fracture.mode=tear --set time.guard=substep"
@@ -24,7 +25,7 @@ balloon-sim ball.cfg $rubber --log untouched.tsv --set "time.end=$until" -q >/de
 
 # Both walls and what is mirrored in them, the second drawn first where nobody sorts.
 if command -v import >/dev/null; then
-    open_live
+    open_live --set balloons[0].point_mass=1
     sleep 1
     pause
     for order in sort list peel none sort-again; do

@@ -10,6 +10,9 @@ refused 2 'one FILE\.oct is carved at a time' balloon-sculpt a.oct b.oct
 refused 2 '--depth 11: must be a whole number from 0 to 10' balloon-sculpt --depth 11 -o a.oct
 refused 2 '--depth x: must be a whole number' balloon-sculpt --depth x -o a.oct
 refused 2 '--undo-memory 0: must be a whole number from 1 to 65536' balloon-sculpt --undo-memory 0
+expect 0 balloon-sculpt --undo-memory 5 -o a.oct
+stderr_has '--undo-memory does nothing: only the window undoes'
+rm a.oct
 refused 2 '--depth 3: a\.oct has its own' balloon-sculpt a.oct --depth 3 --info
 refused 2 'give one of them to begin with' balloon-sculpt a.oct --import b.vox --info
 refused 2 '--export a\.stl: \.vox, \.ply and \.chips are written' balloon-sculpt --export a.stl

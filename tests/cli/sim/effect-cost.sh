@@ -14,6 +14,10 @@ stdout_has '^# gravity: (saves )?[0-9.e+]+ % of the time, changes positions by 0
 stdout_has '^# gas in place of a constant pressure, '
 only_files cube.oct cube.ply cost.tsv
 
+# what is for a run is told that its place is taken, and the work is done
+expect 0 balloon-sim cube.ply $calm --set gravity.acceleration=[0,-3,0] --threads 2 --effect-cost cost.tsv
+stderr_has '--threads is for a run, whose place --effect-cost takes: it does nothing'
+
 # what needs another, and what only says what something means, cannot be left out alone
 expect 0 balloon-sim cube.ply --set time.end=0.1 --set 'balloons[0].pressure=0.1' --set 'balloons[0].pressure_on=areas' --effect-cost cost.tsv
 stdout_has '^# pressure_on: cannot be left out alone: it says how the pressure acts'

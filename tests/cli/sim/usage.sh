@@ -12,3 +12,5 @@ stdout_has '^ +pressure +on each point, along its normal$'
 stdout_has 'default 10, may be scheduled'
 
 refused 2 '--contact-sheet x.jpg: the name must end in .png' balloon-sim m.ply --contact-sheet x.jpg
+
+refused 2 '--effect-cost runs to the end without a window' balloon-sim m.ply --effect-cost cost.tsv --window

@@ -7,6 +7,8 @@ expect 0 balloon-surface cube.oct -o cube.ply
 a_file cube.ply
 expect 0 balloon-surface cube.oct --seeds random --seed 5 -o again.ply
 same_file cube.ply again.ply
+expect 0 balloon-surface cube.oct --seed 5 -o again.ply
+stderr_has '--seed does nothing: there are random points with --seeds random only'
 for format in stl obj; do
     expect 0 balloon-surface cube.oct -o cube.$format
     a_file cube.$format
