@@ -82,7 +82,7 @@ struct contact {
     float (*lines)[8], (*ways)[8]; /* [point_count] owned */
 
     struct contact_taken *taken; /* [workers] owned */
-    struct contact_pair *pairs;  /* [pair_capacity] owned */
+    struct contact_pair *pairs;  /* [pair_capacity + 8] owned */
     uint32_t pair_count, pair_capacity;
     /* Which pairs a point is in (contact_links.h): of the first so many by an index, of
      * those after them by chains. */
@@ -90,11 +90,13 @@ struct contact {
     uint32_t *link;     /* [4 pair_capacity] owned */
     uint32_t *link_end; /* [point_count] where those of p in the index end, and those of p + 1 begin; owned */
     uint32_t *chain;    /* [point_count] the first in its chain; UINT32_MAX: none; owned */
-    /* A pair sleeps while it cannot touch whatever the points are off within their bounds, which
-     * leave room for pushes. */
-    unsigned char *awake; /* [pair_capacity] 0: it sleeps; owned */
-    float *bound;         /* [point_count] since the last look at all pairs; owned */
-    uint32_t *hits;       /* [pair_capacity] pairs that touch, by the last look; owned */
+    /* A pair that cannot touch before its points have gone so far sleeps until they have, and is not looked
+     * at (contact_kernels.h). None would be found to touch, so that nothing depends on who sleeps, and none
+     * of this is a part of the state. */
+    float *path;       /* [point_count] how far each has gone since all was found; owned */
+    double (*seen)[4]; /* [point_count] up to there; owned */
+    bool may_sleep;    /* in this step: some points are so slow that it is worth while */
+    uint32_t *hits;    /* [pair_capacity] pairs that touch, by the last look; owned */
     uint32_t hit_count;
     uint32_t *moved; /* [point_count] points moved since the last look, in order; owned */
     uint32_t moved_count;
@@ -110,6 +112,7 @@ struct contact {
     struct contact_share {
         double stray, pace; /* the largest squares */
         uint32_t count;     /* of points that have strayed too far */
+        uint32_t slow;      /* of those that went so little that their pairs may sleep for some steps */
     } * share;              /* [part_count] owned */
 };
 
@@ -141,8 +144,6 @@ void contact_gather(double (*x)[4], const uint32_t points[4], double places[4][3
  * where zones is true) among those of the points in c->moved. True if there are any. */
 bool contact_look(struct sim *sim);
 bool contact_look_at_moved(struct sim *sim, bool zones);
-/* Wakes the pairs of a point that is off further than its bound. */
-void contact_wake(struct sim *sim, uint32_t point);
 /* contact_solve.c. c->moved: from now on nothing; and a point. */
 void contact_rest(struct contact *c);
 void contact_move(struct contact *c, uint32_t point);

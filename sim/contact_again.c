@@ -1,7 +1,7 @@
 /* The pairs of a few points found anew, in place of those that the list has. */
-#include "common/threads.h"
 #include "sim/contact_finder.h"
 #include "sim/contact_links.h"
+#include "sim/contact_shares.h"
 
 /* Pairs at that distance are never looked at again. Those of several such points are left to one
  * worker. */
@@ -12,8 +12,7 @@ static void forget_pairs(struct contact *c, uint32_t point)
         struct contact_pair *pair = &c->pairs[at / 4];
         if (!contact_is_first(c->marked, pair->point, at % 4))
             continue;
-        pair->distance = INFINITY;
-        c->awake[at / 4] = 0;
+        pair->distance = pair->until = INFINITY;
     }
 }
 
@@ -153,7 +152,7 @@ enum status contact_pairs_find_again(struct sim *sim, struct error *err)
     const uint32_t around = list_around(sim, c);
     if (around != UINT32_MAX &&
         contact_tree_refit(&c->tree, sim, &ways, c->again, c->again_count, c->around, around)) {
-        threads_run(sim->pool, c->again_count, find_vicinity, &finder);
+        contact_share_out(sim->pool, c->again_count, find_vicinity, &finder);
         contact_tree_pairs_opened(&c->tree, sim, contact_take_leaves, &finder);
         status = contact_finder_end(&finder, err);
     } else {

@@ -12,6 +12,8 @@
 #include "sim/contact_kernels.h"
 #include "sim/lanes8.h"
 
+#include <string.h>
+
 #define APART_ROUNDING 3e-6F
 
 /* Eight pairs at one time. */
@@ -145,26 +147,42 @@ static inline void apart_eight(const struct contact_flock *flock, enum ccd_kind 
 }
 
 /*
+ * In this step they stay clear of each other while the gap is left between them at its end. In a later one
+ * they do while all that they have gone since leaves half of how far they were apart, or of `thickness`:
+ * what is free between them, and more than what ccd_approach() says, never falls by more than their points
+ * go together.
+ */
+static inline void apart_note(lanes8_mask sure, lanes8 end, lanes8 gap, lanes8 lost, float thickness,
+                              float *clear)
+{
+    const lanes8 least = lanes8_max(gap, 0.50001F * lanes8_min(end, lanes8_all(thickness))),
+                 free = lanes8_select(sure, end - least - 2 * lost, lanes8_all(0));
+    memcpy(clear, &free, sizeof free);
+}
+
+/*
  * contact_kernels.h: open; a bit for each. A way from one feature to the other is never shorter than they are
  * apart. Features that slide past each other are often not apart at last along the direction in which they
  * are nearest at first, but along the one in which they are nearest then.
  */
 static inline unsigned apart_open(const struct contact_flock *flock, float thickness, enum ccd_kind kind,
-                                  const uint32_t (*points)[4])
+                                  const uint32_t (*points)[4], float *clear)
 {
     const struct apart_ways f = apart_gather(flock, points);
     const struct lanes8_vec way = apart_way(&f.first, kind);
     const lanes8 length = lanes8_sqrt(lanes8_dot(way, way));
     const struct lanes8_vec n = apart_unit(way, length);
     const lanes8 gap = lanes8_min(length, lanes8_all(thickness)) * 0.50001F + f.lost;
-    const unsigned clear = lanes8_bits((apart_along(&f.first, kind, n) > gap) &
-                                       (apart_along(&f.last, kind, n) > gap));
-    if (clear == 0xff)
+    const lanes8 end = apart_along(&f.last, kind, n);
+    const lanes8_mask sure = (apart_along(&f.first, kind, n) > gap) & (end > gap);
+    apart_note(sure, end, gap, f.lost, thickness, clear);
+    const unsigned clear_ones = lanes8_bits(sure);
+    if (clear_ones == 0xff)
         return 0;
     const struct lanes8_vec then = apart_way(&f.last, kind),
                             m = apart_unit(then, lanes8_sqrt(lanes8_dot(then, then)));
-    return 0xff & ~(clear | lanes8_bits((apart_along(&f.first, kind, m) > gap) &
-                                        (apart_along(&f.last, kind, m) > gap)));
+    return 0xff & ~(clear_ones | lanes8_bits((apart_along(&f.first, kind, m) > gap) &
+                                             (apart_along(&f.last, kind, m) > gap)));
 }
 
 #endif

@@ -94,15 +94,16 @@ static void apart(const struct contact_flock *flock, uint32_t (*points)[4], uint
 }
 
 static uint32_t open(const struct contact_flock *flock, double thickness, uint32_t (*points)[4],
-                     uint32_t count, uint32_t *open)
+                     uint32_t count, uint32_t *open, float *clear)
 {
     const float least = (float)(1.000001 * thickness);
     uint32_t found = 0;
     fill_up(points, count);
     for (uint32_t i = 0; i < count; i += 8) {
         const uint32_t(*eight)[4] = (const uint32_t(*)[4]) & points[i];
-        unsigned bits = flock->kind == CCD_EDGES ? apart_open(flock, least, CCD_EDGES, eight)
-                                                 : apart_open(flock, least, CCD_POINT_TRIANGLE, eight);
+        unsigned bits = flock->kind == CCD_EDGES
+                            ? apart_open(flock, least, CCD_EDGES, eight, &clear[i])
+                            : apart_open(flock, least, CCD_POINT_TRIANGLE, eight, &clear[i]);
         for (uint32_t j = i; bits && j < count; j++, bits >>= 1)
             if (bits & 1)
                 open[found++] = j;

@@ -32,6 +32,9 @@ struct contact_pair {
         point[4];  /* the point and the triangle's corners, or the ends of one edge and of the other */
     uint32_t kind; /* enum ccd_kind */
     float distance, approach;
+    /* Its points' paths since the list was made, all four together, must be longer before it can touch:
+     * until then it sleeps. */
+    float until;
 };
 
 /* What is known of the pairs' points, when some of them are to be told from those that cannot touch. */
@@ -39,7 +42,7 @@ struct contact_sieve {
     const float *off;      /* [point_count] how far each may be from its line */
     float growth, gone[2]; /* of the balloon, no more than 1; at the step's beginning and end */
     float gap;             /* half the thickness */
-    float more; /* what sleeps cannot touch before its points are further off, together, by so much */
+    const float *path; /* [point_count] how far each has gone since the list was made; NULL: no pair sleeps */
 };
 
 /* Where the points go, how far each may stray from that, and how much room is wanted around it. */
@@ -55,6 +58,13 @@ struct contact_group {
     uint32_t count;
     const struct contact_box *all;
 };
+
+/* Until when a pair sleeps whose points have gone so far together, and may go so much further: rounded
+ * down, since each sum of four paths is off by up to 2e-7 of it. */
+static inline float contact_until(float gone, float further)
+{
+    return gone + 0.999F * further - 1e-6F * gone;
+}
 
 struct contact_kernels {
     /* Of a box of each of two groups those that meet: couples[i] becomes their numbers in a and b; returns
@@ -73,21 +83,23 @@ struct contact_kernels {
                   float (*apart)[2]);
 
     /*
-     * Which of the pairs may come nearer on their way than half of `thickness`, or of their distance at first
-     * where that is less: open becomes their numbers, in order, and the call returns how many. All others
-     * surely do not. points as above; open has room for `count`.
+     * Which of the pairs may come nearer on their way than half of `thickness`, or of their distance at
+     * first where that is less: open becomes their numbers, in order, and the call returns how many. All
+     * others surely do not. clear[i] becomes how far the points of pair i may yet go, together, before it
+     * must be looked at again, in this step or a later one; no more than 0 where that is not known. points
+     * as above; open has room for `count`, clear for a multiple of eight.
      */
     uint32_t (*open)(const struct contact_flock *flock, double thickness, uint32_t (*points)[4],
-                     uint32_t count, uint32_t *open);
+                     uint32_t count, uint32_t *open, float *clear);
 
     /*
-     * Which of pairs[which[0]] to pairs[which[count - 1]] may touch, by how far their points are from their
-     * lines: near becomes which ones, in order, and the call returns how many. which NULL: the pairs from the
-     * first on; then awake[i] becomes whether pair i does not sleep. There is room for a multiple of eight in
-     * all but near, and pairs have points there too.
+     * Which of pairs[which[0]] to pairs[which[count - 1]] do not sleep and may touch, by how far their
+     * points are from their lines: near becomes which ones, in order, and the call returns how many. Others
+     * that do not sleep go to sleep. which NULL: the pairs from the first on. There is room for a multiple
+     * of eight in all but near, and pairs have points there too.
      */
-    uint32_t (*sift)(const struct contact_sieve *sieve, const struct contact_pair *pairs,
-                     const uint32_t *which, uint32_t count, unsigned char *awake, uint32_t *near);
+    uint32_t (*sift)(const struct contact_sieve *sieve, struct contact_pair *pairs, const uint32_t *which,
+                     uint32_t count, uint32_t *near);
 
     /* sides[t] becomes, for `count` of the triangles, a bit for each of 26 directions that its normal looks
      * to all the way, whatever its points stray. */

@@ -1,9 +1,9 @@
 /* Which pairs touch on their ways: of all that the list has, or of those whose points
  * have just been pushed. */
-#include "common/threads.h"
 #include "common/vec3.h"
 #include "sim/contact_approach.h"
 #include "sim/contact_links.h"
+#include "sim/contact_shares.h"
 
 #include <string.h>
 
@@ -69,7 +69,7 @@ struct look {
 };
 
 /* Pairs of a kind that are worth a nearer look, some at a time. */
-enum { PAIRS_AT_ONCE = 256, POINTS_AT_ONCE = 8 };
+enum { PAIRS_AT_ONCE = 256, POINTS_AT_ONCE = 3 };
 
 struct sieve {
     const struct look *look;
@@ -77,14 +77,28 @@ struct sieve {
     uint32_t pair[2][PAIRS_AT_ONCE], point[2][PAIRS_AT_ONCE][4];
 };
 
+/* Those that are clear of each other. */
+static void send_to_sleep(const struct sieve *sieve, enum ccd_kind kind, const float *clear)
+{
+    const struct contact *c = sieve->look->sim->contact;
+    for (uint32_t i = 0; c->may_sleep && i < sieve->count[kind]; i++) {
+        const uint32_t *p = sieve->point[kind][i];
+        if (clear[i] > 0)
+            c->pairs[sieve->pair[kind][i]].until = contact_until(
+                c->path[p[0]] + c->path[p[1]] + c->path[p[2]] + c->path[p[3]], clear[i]);
+    }
+}
+
 static void look_closely(struct sieve *sieve, enum ccd_kind kind)
 {
     const struct sim *sim = sieve->look->sim;
     struct contact *c = sim->contact;
     const struct contact_flock flock = {kind, c->ways, 0};
     uint32_t open[PAIRS_AT_ONCE];
+    float clear[PAIRS_AT_ONCE];
     const uint32_t count = c->tree.kernels->open(&flock, c->thickness, sieve->point[kind], sieve->count[kind],
-                                                 open);
+                                                 open, clear);
+    send_to_sleep(sieve, kind, clear);
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t pair = sieve->pair[kind][open[i]];
         struct contact_approach a;
@@ -129,8 +143,7 @@ static void look_at_some(void *context, size_t index, unsigned worker)
     const uint32_t begin = (uint32_t)index * PAIRS_AT_ONCE,
                    end = begin + PAIRS_AT_ONCE < c->pair_count ? begin + PAIRS_AT_ONCE : c->pair_count;
     uint32_t near[PAIRS_AT_ONCE];
-    const uint32_t count = c->tree.kernels->sift(&sieve.look->by, &c->pairs[begin], NULL, end - begin,
-                                                 &c->awake[begin], near);
+    const uint32_t count = c->tree.kernels->sift(&sieve.look->by, &c->pairs[begin], NULL, end - begin, near);
     for (uint32_t i = 0; i < count; i++)
         take_in(&sieve, begin + near[i]);
     end_look(&sieve);
@@ -147,7 +160,7 @@ static void take_links_in(struct sieve *sieve, uint32_t *links, uint32_t count)
     }
     for (uint32_t i = kept; i % 8 != 0; i++)
         links[i] = links[kept - 1];
-    kept = c->tree.kernels->sift(&sieve->look->by, c->pairs, links, kept, NULL, near);
+    kept = c->tree.kernels->sift(&sieve->look->by, c->pairs, links, kept, near);
     for (uint32_t i = 0; i < kept; i++)
         take_in(sieve, near[i]);
 }
@@ -164,8 +177,7 @@ static void look_at_links(void *context, size_t index, unsigned worker)
     for (uint32_t i = begin; i < end; i++) {
         struct contact_links links = contact_links_of(c, c->moved[i]);
         for (uint32_t at; (at = contact_links_next(&links)) != UINT32_MAX;) {
-            kept[count] = at;
-            count += c->awake[at / 4];
+            kept[count++] = at;
             if (count == PAIRS_AT_ONCE) {
                 take_links_in(&sieve, kept, count);
                 count = 0;
@@ -230,10 +242,10 @@ static bool look(struct sim *sim, bool zones, size_t count,
                                      (float)fmin(1, fmin(c->memory.began.growth, c->motion.growth)),
                                      {(float)contact_list_gone_before(sim), (float)contact_list_gone(sim)},
                                      (float)(c->thickness * 0.5000001),
-                                     (float)(c->thickness * 0.6)};
+                                     c->may_sleep ? c->path : NULL};
     struct look look = {sim, zones, by};
     c->hit_count = 0;
-    threads_run(sim->pool, count, function, &look);
+    contact_share_out(sim->pool, count, function, &look);
     sort_hits(c);
     drop_equal_hits(c);
     return c->hit_count > 0;
@@ -250,20 +262,7 @@ bool contact_look(struct sim *sim)
     struct contact *c = sim->contact;
     struct contact_rounding ways = round_ways(sim);
     contact_round(sim, &ways);
-    const float more = (float)c->thickness / 4; /* of two points that is less than contact_sieve.more */
-    for (uint32_t p = 0; p < sim->point_count; p++)
-        c->bound[p] = c->off[p] + more;
     return look(sim, false, (c->pair_count + PAIRS_AT_ONCE - 1) / PAIRS_AT_ONCE, look_at_some);
-}
-
-void contact_wake(struct sim *sim, uint32_t point)
-{
-    struct contact *c = sim->contact;
-    contact_links_make(sim);
-    c->bound[point] = INFINITY;
-    struct contact_links links = contact_links_of(c, point);
-    for (uint32_t at; (at = contact_links_next(&links)) != UINT32_MAX;)
-        c->awake[at / 4] = 1;
 }
 
 bool contact_look_at_moved(struct sim *sim, bool zones)

@@ -61,11 +61,11 @@ static void list_kept(const struct contact_finder *f, struct contact_taken *take
         const double first = (double)apart[kept[i]][0],
                      pace = (first - (double)apart[kept[i]][1]) / (1 - f->gone),
                      at_first = first + f->gone * pace;
-        c->awake[begin + i] = 1;
         c->pairs[begin + i] = (struct contact_pair){{p[0], p[1], p[2], p[3]},
                                                     kind,
                                                     (float)(at_first - 1e-6 * (fabs(at_first) + fabs(pace))),
-                                                    (float)pace};
+                                                    (float)pace,
+                                                    -1};
     }
 }
 
@@ -163,6 +163,16 @@ void contact_take_leaves(void *finder, unsigned worker, uint32_t a, uint32_t b)
     take_edges(f, taken, first, second);
 }
 
+static void begin_paths(struct sim *sim, const struct sim_part *part, void *context)
+{
+    struct contact *c = sim->contact;
+    (void)context;
+    for (uint32_t p = part->point_begin; p < part->point_end; p++) {
+        c->path[p] = 0;
+        memcpy(c->seen[p], sim->position[p], sizeof c->seen[p]);
+    }
+}
+
 static void round_part(struct sim *sim, const struct sim_part *part, void *job)
 {
     sim->contact->tree.kernels->round(job, part->point_begin, part->point_end);
@@ -195,13 +205,15 @@ enum status contact_finder_end(const struct contact_finder *f, struct error *err
         list_taken(f, &c->taken[i], CCD_EDGES);
     }
     c->listed = c->memory.found;
-    if (c->pair_count <= c->pair_capacity)
+    const uint32_t near = c->pair_count;
+    if (near <= c->pair_capacity)
         return STATUS_OK;
+    c->pair_count = 0; /* what is not whole is no list: nothing goes by it */
     return error_set(
         err, STATUS_RANGE,
         "%s: contact at time %g: %u pairs of points, edges and triangles are near each other, and there is "
         "room for %u; contact.thickness = %g is too much for edges of this length, or the skin is crushed",
-        sim->scene->path, sim->time, c->pair_count, c->pair_capacity, c->thickness);
+        sim->scene->path, sim->time, near, c->pair_capacity, c->thickness);
 }
 
 enum status contact_pairs_find(struct sim *sim, struct error *err)
@@ -213,6 +225,7 @@ enum status contact_pairs_find(struct sim *sim, struct error *err)
     memcpy(c->origin, c->from[0], sizeof c->origin);
     struct contact_rounding lines = contact_round_lines(c);
     contact_round(sim, &lines);
+    sim_each_part(sim, begin_paths, NULL);
     contact_tree_fit(&c->tree, sim, &ways);
     contact_tree_pairs(&c->tree, sim, contact_take_leaves, &finder);
     return contact_finder_end(&finder, err);

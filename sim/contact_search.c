@@ -1,5 +1,5 @@
 /* Which leaves meet: down the tree of contact_tree.c, shared out among the workers. */
-#include "common/threads.h"
+#include "sim/contact_shares.h"
 #include "sim/contact_tree.h"
 
 #include <string.h>
@@ -97,7 +97,7 @@ void contact_tree_pairs(struct contact_tree *tree, struct sim *sim,
             tree->jobs[0] = (struct contact_job){tree->root[i], tree->root[j]};
             tree->job_count = 1;
             share_out(tree);
-            threads_run(sim->pool, tree->job_count, search_one, &s);
+            contact_share_out(sim->pool, tree->job_count, search_one, &s);
         }
 }
 
@@ -106,7 +106,7 @@ void contact_tree_pairs_opened(struct contact_tree *tree, struct sim *sim,
                                void *context)
 {
     struct search s = {.tree = tree, .take = take, .context = context};
-    threads_run(sim->pool, tree->job_count, search_one, &s);
+    contact_share_out(sim->pool, tree->job_count, search_one, &s);
 }
 
 void contact_tree_near(const struct contact_tree *tree, const struct contact_box *box,

@@ -1,54 +1,81 @@
-/* Which pairs may touch, by what is known of their lines, for contact_kernels.c: eight at a time, without
- * branches, since nobody can guess. */
+/* Which pairs may touch, by what is known of their lines, for contact_kernels.c: eight at a time. */
 #ifndef SIM_CONTACT_SIFT_H
 #define SIM_CONTACT_SIFT_H
 
 #include "sim/contact_kernels.h"
 #include "sim/lanes8.h"
 
-#include <string.h>
+/* Eight pairs. */
+struct sift_eight {
+    lanes8_mask point[4], edges;
+    lanes8 distance, approach, until;
+};
+
+static inline struct sift_eight sift_turn(const lanes8 pairs[8])
+{
+    lanes8 turned[8];
+    lanes8_turn(pairs, turned);
+    struct sift_eight e = {.edges = (lanes8_mask)turned[4] == CCD_EDGES,
+                           .distance = turned[5],
+                           .approach = turned[6],
+                           .until = turned[7]};
+    for (int k = 0; k < 4; k++)
+        e.point[k] = (lanes8_mask)turned[k];
+    return e;
+}
+
+static inline lanes8 sift_gone(const struct contact_sieve *s, const struct sift_eight *e)
+{
+    return lanes8_pick(s->path, e->point[0]) + lanes8_pick(s->path, e->point[1]) +
+           lanes8_pick(s->path, e->point[2]) + lanes8_pick(s->path, e->point[3]);
+}
 
 /* How much further the points of each pair would have to be off before it could touch; 0 and less: it may. */
-static inline lanes8 sift_spare(const struct contact_sieve *s, const lanes8 pairs[8])
+static inline lanes8 sift_spare(const struct contact_sieve *s, const struct sift_eight *e)
 {
-    lanes8 turned[8], off[4];
-    lanes8_turn(pairs, turned);
+    lanes8 off[4];
     for (int k = 0; k < 4; k++)
-        off[k] = lanes8_pick(s->off, (lanes8_mask)turned[k]);
-    const lanes8_mask edges = (lanes8_mask)turned[4] == CCD_EDGES;
-    const lanes8 distance = turned[5], approach = turned[6],
-                 gone = lanes8_select(approach > 0, lanes8_all(s->gone[1]), lanes8_all(s->gone[0])),
-                 apart = distance - gone * approach, high = lanes8_max(off[2], off[3]),
-                 first = lanes8_max(off[0], (lanes8)((lanes8_mask)off[1] & edges)),
-                 second = lanes8_max(high, (lanes8)((lanes8_mask)off[1] & ~edges));
+        off[k] = lanes8_pick(s->off, e->point[k]);
+    const lanes8 gone = lanes8_select(e->approach > 0, lanes8_all(s->gone[1]), lanes8_all(s->gone[0])),
+                 apart = e->distance - gone * e->approach, high = lanes8_max(off[2], off[3]),
+                 first = lanes8_max(off[0], (lanes8)((lanes8_mask)off[1] & e->edges)),
+                 second = lanes8_max(high, (lanes8)((lanes8_mask)off[1] & ~e->edges));
     return s->growth * apart - s->gap - first - second;
 }
 
-/* As bytes of 0 and 1. Most are so already: what is not written stays in the caches of all who read it. */
-static inline void sift_note(lanes8_mask true_ones, unsigned char *bytes)
+/* Those of an eight that rest sleep until their points have gone further by what they have to spare, but for
+ * what rounding may come to. */
+static inline void sift_rest(const struct contact_sieve *s, lanes8 gone, lanes8 spare, unsigned rest,
+                             struct contact_pair *pairs, const uint32_t *which)
 {
-    typedef unsigned char eight_bytes __attribute__((vector_size(8)));
-    const eight_bytes now = (eight_bytes) __builtin_convertvector(true_ones & 1, eight_bytes);
-    if (memcmp(bytes, &now, sizeof now) != 0)
-        memcpy(bytes, &now, sizeof now);
+    for (; rest; rest &= rest - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(rest);
+        pairs[which ? which[k] : k].until = contact_until(gone[k], spare[k] - 1e-5F * s->gap);
+    }
 }
 
-static uint32_t sift(const struct contact_sieve *sieve, const struct contact_pair *pairs,
-                     const uint32_t *which, uint32_t count, unsigned char *awake, uint32_t *near)
+static uint32_t sift(const struct contact_sieve *sieve, struct contact_pair *pairs, const uint32_t *which,
+                     uint32_t count, uint32_t *near)
 {
     uint32_t found = 0;
     for (uint32_t i = 0; i < count; i += 8) {
-        lanes8 rows[8];
+        unsigned up = count - i < 8 ? (1U << (count - i)) - 1 : 0xff;
+        lanes8 rows[8], gone = lanes8_all(0);
         for (uint32_t k = 0; k < 8; k++)
             rows[k] = *(const lanes8 *)&pairs[which ? which[i + k] : i + k];
-        const lanes8 spare = sift_spare(sieve, rows);
-        if (!which)
-            sift_note(spare <= sieve->more, &awake[i]);
-        unsigned bits = lanes8_bits(spare <= 0);
-        if (count - i < 8)
-            bits &= (1U << (count - i)) - 1;
-        for (; bits; bits &= bits - 1) {
-            const uint32_t k = i + (uint32_t)__builtin_ctz(bits);
+        const struct sift_eight e = sift_turn(rows);
+        if (sieve->path) {
+            gone = sift_gone(sieve, &e);
+            up &= lanes8_bits(~(gone <= e.until));
+        }
+        if (up == 0)
+            continue;
+        const lanes8 spare = sift_spare(sieve, &e);
+        if (sieve->path)
+            sift_rest(sieve, gone, spare, up & lanes8_bits(spare > 0), which ? pairs : &pairs[i],
+                      which ? &which[i] : NULL);
+        for (unsigned touch = up & lanes8_bits(spare <= 0); touch; touch &= touch - 1) {
+            const uint32_t k = i + (uint32_t)__builtin_ctz(touch);
             near[found++] = which ? which[k] : k;
         }
     }

@@ -1,6 +1,7 @@
 /* The pushes that keep skins apart, and the rounds of looking and pushing after a step. */
 #include "common/vec3.h"
 #include "sim/contact_approach.h"
+#include "sim/ledger.h"
 #include "sim/obstacles.h"
 #include "sim/pins.h"
 #include "sim/sweep.h"
@@ -146,12 +147,14 @@ static enum status keep_apart(struct sim *sim, struct error *err)
     pins_mark(sim, c->held);
     bool hits = contact_look(sim);
     sim->pushed = hits && sweep_sees_pushes(sim);
+    if (hits)
+        ledger_note(sim);
     for (int round = 0; hits && round < ROUNDS_MAX && !status; round++) {
         sim->changed = true;
         push_all(sim);
         turn_moved(sim);
         status = contact_list_follow_moved(sim, err);
-        hits = contact_look_at_moved(sim, false);
+        hits = !status && contact_look_at_moved(sim, false);
     }
     return hits && !status ? contact_freeze(sim, err) : status;
 }

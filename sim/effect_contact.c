@@ -55,8 +55,8 @@ static bool allocate(struct sim *sim, struct contact *c)
     c->link = sim_table(sim, 4 * (size_t)c->pair_capacity, sizeof *c->link);
     c->link_end = sim_table(sim, points, sizeof *c->link_end);
     c->chain = sim_table(sim, points, sizeof *c->chain);
-    c->bound = sim_table(sim, points, sizeof *c->bound);
-    c->awake = sim_table(sim, (size_t)c->pair_capacity + 8, 1);
+    c->path = sim_table(sim, points, sizeof *c->path);
+    c->seen = sim_table(sim, points, sizeof *c->seen);
     c->hits = sim_table(sim, c->pair_capacity, sizeof *c->hits);
     c->moved = sim_table(sim, points, sizeof *c->moved);
     c->again = sim_table(sim, points, sizeof *c->again);
@@ -68,7 +68,7 @@ static bool allocate(struct sim *sim, struct contact *c)
     c->drift = sim_table(sim, points, sizeof *c->drift);
     c->share = sim_table(sim, sim->part_count, sizeof *c->share);
     return c->from && c->to && c->reach && c->off && c->speed && c->star_end && c->star && c->lines &&
-           c->ways && c->taken && c->pairs && c->link && c->link_end && c->chain && c->bound && c->awake &&
+           c->ways && c->taken && c->pairs && c->link && c->link_end && c->chain && c->path && c->seen &&
            c->hits && c->moved && c->again && c->around && c->stirred && c->marked && c->held && c->zone &&
            c->drift && c->share;
 }
@@ -195,10 +195,10 @@ static void close(struct sim *sim, struct sim_balloon *balloon)
     if (!c)
         return;
     contact_tree_close(&c->tree);
-    void *tables[] = {c->from,   c->to,    c->reach, c->off,   c->speed, c->star_end, c->star,
-                      c->lines,  c->ways,  c->taken, c->pairs, c->link,  c->link_end, c->chain,
-                      c->bound,  c->awake, c->hits,  c->moved, c->again, c->around,   c->stirred,
-                      c->marked, c->held,  c->zone,  c->drift, c->share};
+    void *tables[] = {c->from,   c->to,   c->reach, c->off,   c->speed, c->star_end, c->star,
+                      c->lines,  c->ways, c->taken, c->pairs, c->link,  c->link_end, c->chain,
+                      c->path,   c->seen, c->hits,  c->moved, c->again, c->around,   c->stirred,
+                      c->marked, c->held, c->zone,  c->drift, c->share};
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++)
         free(tables[i]);
     free(c);
@@ -221,10 +221,8 @@ static size_t blocks(struct sim *sim, struct sim_balloon *balloon, struct sim_bl
 
 static enum status settle(struct sim *sim, struct error *err)
 {
-    const double energy = sim->ledger.on ? ledger_energy(sim) : 0;
     enum status status = contact_settle(sim, err);
-    if (!status && sim->ledger.on && sim->changed)
-        sim->ledger.account.contact += energy - ledger_energy(sim);
+    ledger_book(sim, !status && sim->changed);
     return status;
 }
 

@@ -107,12 +107,9 @@ static void close(struct sim *sim, struct sim_balloon *balloon)
 static enum status settle(struct sim *sim, struct error *err)
 {
     (void)err;
-    const double energy = sim->ledger.on ? ledger_energy(sim) : 0;
-    if (!obstacles_settle(sim))
-        return STATUS_OK;
-    sim->changed = true;
-    if (sim->ledger.on)
-        sim->ledger.account.contact += energy - ledger_energy(sim);
+    const bool moved = obstacles_settle(sim);
+    sim->changed |= moved;
+    ledger_book(sim, moved);
     return STATUS_OK;
 }
 

@@ -97,6 +97,21 @@ double ledger_energy(struct sim *sim)
     return energy;
 }
 
+void ledger_note(struct sim *sim)
+{
+    if (!sim->ledger.on || sim->ledger.noted)
+        return;
+    sim->ledger.before = ledger_energy(sim);
+    sim->ledger.noted = true;
+}
+
+void ledger_book(struct sim *sim, bool moved)
+{
+    if (sim->ledger.noted && moved)
+        sim->ledger.account.contact += sim->ledger.before - ledger_energy(sim);
+    sim->ledger.noted = false;
+}
+
 void ledger_begin(struct sim *sim)
 {
     sim->ledger.account = (struct sim_account){.begin = ledger_energy(sim)};

@@ -37,6 +37,12 @@ double ledger_elastic(const struct sim *sim, uint32_t begin, uint32_t end);
 /* What all points move with and what holds them: kinetic and elastic energy of the present state. */
 double ledger_energy(struct sim *sim);
 
+/* For what moves points at once, obstacles and contact: notes what there is, once, just before they do; and
+ * books what that has taken, or nothing where none of it came about. While nothing is noted nothing is worked
+ * out. */
+void ledger_note(struct sim *sim);
+void ledger_book(struct sim *sim, bool moved);
+
 /* All in the unit of force x length. */
 struct ledger_balance {
     double gas;        /* held by gas, and by what else effects hold; 0 where the pressure is given */

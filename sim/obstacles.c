@@ -1,6 +1,7 @@
 #include "sim/obstacles.h"
 #include "common/vec3.h"
 #include "sim/kernels.h"
+#include "sim/ledger.h"
 #include "sim/sweep.h"
 
 #include <string.h>
@@ -257,6 +258,7 @@ bool obstacles_settle(struct sim *sim)
         return false;
     }
     uint32_t touched = 0;
+    ledger_note(sim);
     sim_each_part(sim, settle_part, obstacles);
     for (size_t i = 0; i < sim->part_count; i++)
         touched += obstacles->found[i].touched;

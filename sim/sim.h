@@ -119,6 +119,8 @@ struct sim_ledger {
         double contact;  /* what obstacles and contact took */
         double let_go;   /* what gas lost at once, as holes met, pieces fell off, or all of it was gone */
     } account;
+    bool noted; /* what there was before obstacles or contact moved points in this step: */
+    double before;
 };
 
 /* What the last step began with, and what is put back after a look inside it; empty where

@@ -1,4 +1,5 @@
 /* What contact looks at: nothing that comes near is left out, and no meeting on the way is missed. */
+#include "common/vec3.h"
 #include "crossings.h"
 #include "sim/contact_approach.h"
 #include "sim/contact_links.h"
@@ -92,6 +93,26 @@ static void test_the_list_has_all_that_is_near(void **state)
     close_scene(&s);
 }
 
+/* Where more comes near than there is room for, nothing goes by the part of it that there was room for. */
+static void test_a_list_that_is_full_is_refused(void **state)
+{
+    (void)state;
+    struct scene_of_two s;
+    struct error err = {0};
+    open_scene(&s, 3, 1, FOLDING);
+    swirl(&s.sim, 3);
+    struct contact *c = s.sim.contact;
+    enum status status = STATUS_OK;
+    c->pair_capacity = 200;
+    for (int i = 0; i < 200 && !status; i++) {
+        status = sim_step(&s.sim, &err);
+        assert_true(c->pair_count <= 200);
+    }
+    assert_int_equal(status, STATUS_RANGE);
+    assert_non_null(strstr(err.text, "are near each other, and there is room for 200"));
+    close_scene(&s);
+}
+
 /* By a fine march along the way: the test of contact itself is on the safe side. */
 static bool comes_too_near(double thickness, enum ccd_kind kind, const struct contact_approach *a)
 {
@@ -108,29 +129,76 @@ static bool comes_too_near(double thickness, enum ccd_kind kind, const struct co
     return near;
 }
 
+static bool sleeps(const struct contact *c, const struct contact_pair *pair)
+{
+    const uint32_t *p = pair->point;
+    return c->may_sleep && c->path[p[0]] + c->path[p[1]] + c->path[p[2]] + c->path[p[3]] <= pair->until;
+}
+
 /* Most pairs are not looked at again after a push, or not at all: when a step has ended none of those on the
  * list comes too near on its way, whether it was looked at or not. */
+static void check_that_none_touches(struct sim *sim, int steps, uint32_t *slept, uint32_t *looked)
+{
+    struct error err = {0};
+    for (int i = 0; i < steps; i++) {
+        assert_ok(sim_step(sim, &err), &err);
+        const struct contact *c = sim->contact;
+        for (uint32_t pair = 0; pair < c->pair_count; pair++) {
+            struct contact_approach a;
+            if (!isfinite(c->pairs[pair].distance))
+                continue;
+            if (contact_approaches(sim, &c->pairs[pair], &a))
+                assert_false(comes_too_near(c->thickness, (enum ccd_kind)c->pairs[pair].kind, &a));
+            *slept += sleeps(c, &c->pairs[pair]);
+            *looked += !sleeps(c, &c->pairs[pair]);
+        }
+    }
+}
+
+/* As fast as it falls together, when no pair sleeps for long, and in so short steps that most do. */
 static void test_what_is_not_looked_at_does_not_touch(void **state)
 {
     (void)state;
     struct scene_of_two s;
-    struct error err = {0};
     uint32_t slept = 0, looked = 0;
-    open_scene(&s, 3, 1, FOLDING);
+    open_scene(&s, 3, 1,
+               SETTINGS("contact.thickness=0.5", "balloons[0].pressure=-4", "balloons[0].threshold=100",
+                        "time.guard=substep", "time.step=0.0125", "schedule[0].at=2",
+                        "schedule[0].step=0.0002"));
     swirl(&s.sim, 3);
-    for (int i = 0; i < 200; i++) {
-        assert_ok(sim_step(&s.sim, &err), &err);
-        const struct contact *c = s.sim.contact;
-        for (uint32_t pair = 0; pair < c->pair_count; pair++) {
-            struct contact_approach a;
-            if (isfinite(c->pairs[pair].distance) && contact_approaches(&s.sim, &c->pairs[pair], &a))
-                assert_false(comes_too_near(c->thickness, (enum ccd_kind)c->pairs[pair].kind, &a));
-            slept += !c->awake[pair];
-            looked += c->awake[pair];
-        }
-    }
+    check_that_none_touches(&s.sim, 160, &slept, &looked);
+    assert_true(looked > 1000);
+    slept = looked = 0;
+    check_that_none_touches(&s.sim, 200, &slept, &looked);
     assert_true(slept > 1000 && looked > 1000);
     close_scene(&s);
+}
+
+/* One of the points goes straight towards the other feature. */
+static void move_towards(enum ccd_kind kind, double x[4][3], uint32_t point, double length)
+{
+    struct ccd_touch touch;
+    const int first = kind == CCD_EDGES ? 2 : 1;
+    ccd_distance(kind, x, &touch);
+    for (int i = 0; i < 3; i++)
+        x[point][i] += ((int)point < first ? -length : length) * touch.normal[i];
+}
+
+/* Features that open() calls clear, one of whose points goes as far as it allows: pushed at the end of this
+ * step, in which they come no nearer than the gap; and by the end of the next one, in which nothing is to
+ * be looked at. */
+static void check_clear(enum ccd_kind kind, const struct contact_approach *a, double clear, uint32_t round)
+{
+    struct contact_approach pushed = *a, next;
+    const double share = (round % 5) / 4.0;
+    move_towards(kind, pushed.to, round % 4, clear);
+    assert_false(comes_too_near(0.2, kind, &pushed));
+    memcpy(next.from, a->to, sizeof next.from);
+    move_towards(kind, next.from, round % 4, share * clear);
+    memcpy(next.to, next.from, sizeof next.to);
+    move_towards(kind, next.to, round % 4, (1 - share) * clear);
+    next.distance = ccd_distance(kind, next.from, &next.touch);
+    assert_true(next.distance - ccd_approach(kind, next.from, next.to) > fmin(next.distance, 0.2) / 2);
 }
 
 /* Eight at a time and in single precision, near the place that all is seen from and far from it: no pair that
@@ -143,9 +211,9 @@ static void check_kernels(const struct contact_kernels *kernels, double origin, 
     static double from[4 * PAIRS][4], to[4 * PAIRS][4];
     uint64_t random = 5;
     size_t near = 0, left_out = 0;
-    for (int round = 0; round < 200; round++) {
+    for (uint32_t round = 0; round < 200; round++) {
         uint32_t points[PAIRS][4], open[PAIRS];
-        float apart[PAIRS][2];
+        float apart[PAIRS][2], clear[PAIRS];
         for (uint32_t p = 0; p < 4 * PAIRS; p++) {
             for (int i = 0; i < 3; i++) {
                 from[p][i] = origin + random_unit(&random);
@@ -157,7 +225,7 @@ static void check_kernels(const struct contact_kernels *kernels, double origin, 
         kernels->round(&job, 0, 4 * PAIRS);
         const struct contact_flock flock = {kind, ends, 0};
         kernels->apart(&flock, points, PAIRS, apart);
-        const uint32_t count = kernels->open(&flock, 0.2, points, PAIRS, open);
+        const uint32_t count = kernels->open(&flock, 0.2, points, PAIRS, open, clear);
         for (uint32_t i = 0, next = 0; i < PAIRS; i++) {
             struct contact_approach a;
             struct ccd_touch touch;
@@ -169,6 +237,9 @@ static void check_kernels(const struct contact_kernels *kernels, double origin, 
             near += is_near;
             left_out += !is_open;
             assert_true(is_open || !is_near);
+            assert_true(!is_open || clear[i] <= 0);
+            if (clear[i] > 0)
+                check_clear(kind, &a, (double)clear[i], round + i);
             assert_true((double)apart[i][0] <= a.distance);
             assert_true((double)apart[i][1] <= ccd_distance(kind, a.to, &touch));
         }
@@ -189,6 +260,42 @@ static void test_the_inner_loops_leave_nothing_out(void **state)
             check_kernels(tables[i], 0, (enum ccd_kind)kind);
             check_kernels(tables[i], 3000, (enum ccd_kind)kind);
         }
+    close_scene(&s);
+}
+
+/* Eight pairs a unit apart: they sleep whatever is said of how far their points are off, until these have
+ * gone so far together that they could have met; and one wakes without the others. */
+static void check_waking(const struct contact_kernels *kernels)
+{
+    enum { PAIRS = 8, POINTS = 4 * PAIRS };
+    float off[POINTS] = {0}, path[POINTS] = {0};
+    struct contact_pair pairs[PAIRS];
+    uint32_t near[PAIRS];
+    struct contact_sieve sieve = {.off = off, .growth = 1, .gap = 0.25F, .path = path};
+    for (uint32_t i = 0; i < PAIRS; i++)
+        pairs[i] = (struct contact_pair){{4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3}, CCD_EDGES, 1, 0, -1};
+    assert_int_equal(kernels->sift(&sieve, pairs, NULL, PAIRS, near), 0);
+    for (uint32_t p = 0; p < POINTS; p++)
+        off[p] = 1;
+    assert_int_equal(kernels->sift(&sieve, pairs, NULL, PAIRS, near), 0);
+    path[13] = path[14] = 0.37F; /* 0.74 of 0.75 */
+    assert_int_equal(kernels->sift(&sieve, pairs, NULL, PAIRS, near), 0);
+    path[15] = 0.02F;
+    assert_int_equal(kernels->sift(&sieve, pairs, NULL, PAIRS, near), 1);
+    assert_int_equal(near[0], 3);
+    assert_int_equal(kernels->sift(&sieve, pairs, (uint32_t[]){3, 1, 3, 3, 3, 3, 3, 3}, 2, near), 1);
+    assert_int_equal(near[0], 3);
+    sieve.path = NULL; /* where none may sleep */
+    assert_int_equal(kernels->sift(&sieve, pairs, NULL, PAIRS, near), PAIRS);
+}
+
+static void test_a_pair_that_sleeps_wakes_when_its_points_come(void **state)
+{
+    (void)state;
+    struct scene_of_two s;
+    open_scene(&s, 1, 1, FOLDING);
+    check_waking(&contact_plain);
+    check_waking(s.sim.contact->tree.kernels);
     close_scene(&s);
 }
 
@@ -228,8 +335,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_meeting_is_never_missed),
         cmocka_unit_test(test_the_list_has_all_that_is_near),
+        cmocka_unit_test(test_a_list_that_is_full_is_refused),
         cmocka_unit_test(test_what_is_not_looked_at_does_not_touch),
         cmocka_unit_test(test_the_inner_loops_leave_nothing_out),
+        cmocka_unit_test(test_a_pair_that_sleeps_wakes_when_its_points_come),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
