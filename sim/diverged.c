@@ -1,6 +1,7 @@
 /* What a run that came to grief says: where, when, and what is likely to blame. */
 #include "common/vec3.h"
 #include "sim/guard.h"
+#include "sim/reorder.h"
 
 #include <math.h>
 
@@ -52,7 +53,7 @@ static void describe_edge(const struct sim *sim, const struct sim_balloon *b, ui
     if (other == p)
         snprintf(text, size, ", with no edge left");
     else
-        snprintf(text, size, ", on an edge of length %g to point %u", longest, other - b->point_begin);
+        snprintf(text, size, ", on an edge of length %g to point %u", longest, reorder_name(b, other));
 }
 
 enum status sim_diverged(struct sim *sim, double energy, struct error *err)
@@ -74,7 +75,7 @@ enum status sim_diverged(struct sim *sim, double energy, struct error *err)
         err, STATUS_DIVERGED,
         "%s: diverged at time %g (step %llu): point %u of balloons[%zu] is at (%g, %g, %g), moving at "
         "(%g, %g, %g)%s; kinetic energy %g; %s%s",
-        sim->scene->path, sim->time, (unsigned long long)sim->steps, p - b->point_begin,
+        sim->scene->path, sim->time, (unsigned long long)sim->steps, reorder_name(b, p),
         (size_t)(b - sim->balloons), sim->position[p][0], sim->position[p][1], sim->position[p][2],
         sim->velocity[p][0], sim->velocity[p][1], sim->velocity[p][2], edge, energy, advice,
         is_too_large && sim->scene->time.guard == SCENE_GUARD_OFF ? "; time.guard=substep splits it" : "");

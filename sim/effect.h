@@ -14,6 +14,7 @@ struct sim_balloon;
 struct sim_block;
 struct sim_part;
 struct guard_rows;
+struct reorder;
 
 /* When an effect's hook runs. */
 enum effect_phase {
@@ -48,6 +49,8 @@ struct effect {
     void (*after)(struct sim *sim, struct sim_balloon *balloon);
     /* What it remembers from step to step beyond sim->scalar, as blocks; returns how many. NULL: nothing. */
     size_t (*blocks)(struct sim *sim, struct sim_balloon *balloon, struct sim_block *blocks);
+    /* Points of a balloon get other numbers (reorder.h): what it keeps by them follows. NULL: nothing. */
+    void (*reorder)(struct sim *sim, struct sim_balloon *balloon, const struct reorder *reorder);
     /* After a step, whether it can go on: STATUS_DIVERGED with the reason. NULL: always. */
     enum status (*check)(struct sim *sim, struct sim_balloon *balloon, struct error *err);
     /* For the ledger: what it holds now; and what it takes a second for good (dissipated) and brings from

@@ -4,6 +4,7 @@
 #include "sim/contact.h"
 #include "sim/effects.h"
 #include "sim/ledger.h"
+#include "sim/reorder.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -219,6 +220,20 @@ static size_t blocks(struct sim *sim, struct sim_balloon *balloon, struct sim_bl
     return 6;
 }
 
+/* Its list is made anew, and so is what stands for points. */
+static void reorder(struct sim *sim, struct sim_balloon *balloon, const struct reorder *how)
+{
+    (void)balloon;
+    struct contact *c = sim->contact;
+    const uint32_t first = how->balloon->point_begin;
+    reorder_rows(how, c->from + first, sizeof *c->from);
+    reorder_rows(how, c->to + first, sizeof *c->to);
+    reorder_rows(how, c->reach + first, sizeof *c->reach);
+    reorder_rows(how, c->off + first, sizeof *c->off);
+    reorder_rows(how, c->speed + first, sizeof *c->speed);
+    c->listed = c->shared_broken = UINT32_MAX;
+}
+
 static enum status settle(struct sim *sim, struct error *err)
 {
     enum status status = contact_settle(sim, err);
@@ -232,5 +247,6 @@ const struct effect effect_contact = {.name = "contact",
                                       .open = open,
                                       .close = close,
                                       .blocks = blocks,
+                                      .reorder = reorder,
                                       .settle = settle,
                                       .source = "Bridson, Fedkiw & Anderson 2002"};

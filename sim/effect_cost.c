@@ -1,6 +1,7 @@
 #include "sim/effect_cost.h"
 #include "common/vec3.h"
 #include "sim/gas.h"
+#include "sim/reorder.h"
 #include "sim/without.h"
 
 #include <inttypes.h>
@@ -80,8 +81,8 @@ static double distance(const struct sim *a, const struct sim *b)
         const double scale = x->radius > 0 ? x->radius : 1;
         for (uint32_t p = 0; x->point_begin + p < x->point_end && y->point_begin + p < y->point_end;
              p++, count++) {
-            const double d = vec3_distance(a->position[x->point_begin + p], b->position[y->point_begin + p]) /
-                             scale;
+            const double *at = a->position[reorder_point(x, p)], *other = b->position[reorder_point(y, p)];
+            const double d = vec3_distance(at, other) / scale;
             sum += d * d;
         }
     }

@@ -3,6 +3,7 @@
 #include "sim/gas.h"
 #include "sim/gas_torn.h"
 #include "sim/guard.h"
+#include "sim/reorder.h"
 #include "sim/vectors.h"
 
 #include <stdlib.h>
@@ -80,6 +81,14 @@ static size_t blocks(struct sim *sim, struct sim_balloon *b, struct sim_block *l
     list[0] = (struct sim_block){"gas", &b->gas->memory, sizeof b->gas->memory};
     list[1] = (struct sim_block){"held by gas", b->gas->held, b->point_room - b->point_begin};
     return 2;
+}
+
+static void reorder(struct sim *sim, struct sim_balloon *b, const struct reorder *how)
+{
+    (void)sim;
+    reorder_points(how, b->gas->neck, b->gas->neck_count);
+    if (how->balloon == b)
+        reorder_rows(how, b->gas->held, sizeof *b->gas->held);
 }
 
 /* Of gas that is gone: the air's. */
@@ -275,6 +284,12 @@ void gas_let_go(struct sim *sim, struct sim_balloon *balloon, const uint32_t *po
     sim->changed = true;
 }
 
+void gas_hold_copy(struct sim_balloon *balloon, uint32_t point, uint32_t copy)
+{
+    if (balloon->gas)
+        balloon->gas->held[copy - balloon->point_begin] = balloon->gas->held[point - balloon->point_begin];
+}
+
 const struct effect effect_gas = {.name = "gas",
                                   .phase = EFFECT_FORCES,
                                   .wanted = wanted,
@@ -283,6 +298,7 @@ const struct effect effect_gas = {.name = "gas",
                                   .apply = apply,
                                   .after = after,
                                   .blocks = blocks,
+                                  .reorder = reorder,
                                   .product = gas_product,
                                   .bound = gas_bound,
                                   .check = check,

@@ -123,9 +123,9 @@ static const double first_range[2] = {2.5, 0.8};
 static void bound(const struct sim *sim, const struct sim_balloon *b, const struct guard_rows *rows)
 {
     (void)sim, (void)rows;
-    struct membrane *m = b->membrane;
-    m->stiffness = m->modulus * m->thickness * membrane_stiffness(&m->law, b->now->membrane_range);
-    m->damping = 2 * m->viscosity * m->thickness;
+    const struct membrane *m = b->membrane;
+    b->now->membrane_stiffness = m->modulus * m->thickness *
+                                 membrane_stiffness(&m->law, b->now->membrane_range);
 }
 
 static enum status open(struct sim *sim, struct sim_balloon *b, struct error *err)
@@ -139,6 +139,7 @@ static enum status open(struct sim *sim, struct sim_balloon *b, struct error *er
     m->modulus = block->shear_modulus;
     m->thickness = block->thickness;
     m->viscosity = block->viscosity;
+    m->damping = 2 * m->viscosity * m->thickness;
     m->kernels = membrane_kernels_find();
     m->rest = sim_table(sim, triangles, sizeof *m->rest);
     m->edge_weight = sim_table(sim, edges, sizeof *m->edge_weight);

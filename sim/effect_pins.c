@@ -3,6 +3,7 @@
 #include "sim/effects.h"
 #include "sim/patch.h"
 #include "sim/pins.h"
+#include "sim/reorder.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -96,6 +97,12 @@ static void after(struct sim *sim, struct sim_balloon *b)
     }
 }
 
+static void reorder(struct sim *sim, struct sim_balloon *b, const struct reorder *how)
+{
+    (void)sim;
+    reorder_points(how, b->pins->point, b->pins->count);
+}
+
 static size_t blocks(struct sim *sim, struct sim_balloon *b, struct sim_block *list)
 {
     (void)sim;
@@ -111,5 +118,6 @@ const struct effect effect_pins = {.name = "pins",
                                    .apply = apply,
                                    .after = after,
                                    .blocks = blocks,
+                                   .reorder = reorder,
                                    .product = product,
                                    .source = "points of infinite mass"};

@@ -9,6 +9,7 @@
 #include "sim/effects.h"
 #include "sim/guard.h"
 #include "sim/patch.h"
+#include "sim/reorder.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -181,6 +182,12 @@ static void after(struct sim *sim, struct sim_balloon *b)
         guard_bound_outdated(sim);
 }
 
+static void reorder(struct sim *sim, struct sim_balloon *b, const struct reorder *how)
+{
+    (void)sim;
+    reorder_points(how, b->string->point, b->string->count);
+}
+
 static size_t blocks(struct sim *sim, struct sim_balloon *b, struct sim_block *list)
 {
     (void)sim;
@@ -219,6 +226,7 @@ const struct effect effect_string = {.name = "string",
                                      .apply = apply,
                                      .after = after,
                                      .blocks = blocks,
+                                     .reorder = reorder,
                                      .product = product,
                                      .bound = bound,
                                      .energy = energy,

@@ -69,7 +69,8 @@ static const struct cost {
     {"string", "a patch of points; six numbers where a weight hangs on it", {0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
     {"pins", "the place of each held point", {0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
     {"fracture",
-     "a row a triangle and room for cracks; a look at each triangle, and work where one comes near its strength",
+     "a row a triangle and room for cracks; a look at each triangle, and work where one comes near its strength; "
+     "new points come to their places when it rests",
      {0, 0, 0},
      {0, 0, 0},
      {1, 2, 0}},

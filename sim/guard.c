@@ -1,10 +1,12 @@
 #include "sim/guard_bound.h"
 #include "sim/membrane.h"
+#include "sim/reorder.h"
 #include "sim/sweep.h"
 #include "sim/vectors.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum status guard_open(struct sim *sim, struct error *err)
 {
@@ -45,15 +47,20 @@ void guard_outdated(struct sim *sim)
 
 void guard_bound_outdated(struct sim *sim)
 {
-    if (sim->guard->memory.is_known == GUARD_KNOWN)
+    if (sim->guard->memory.is_known != GUARD_UNKNOWN)
         sim->guard->memory.is_known = GUARD_REACH_KNOWN;
 }
 
 size_t guard_blocks(struct sim *sim, struct sim_block *blocks)
 {
     blocks[0] = (struct sim_block){"guard", &sim->guard->memory, sizeof sim->guard->memory};
-    blocks[1] = (struct sim_block){"guard's vector", sim->guard->x, sim->point_count * sizeof *sim->guard->x};
-    return 2;
+    const size_t size = sim->point_count * sizeof *sim->guard->x;
+    blocks[1] = (struct sim_block){"guard's vector", sim->guard->x, size};
+    if (sim->fingerprint == 0) /* nothing can be cut: guard_cut() alone goes by what the last bound found */
+        return 2;
+    blocks[2] = (struct sim_block){"guard's stiffness", sim->guard->rows.stiffness, size};
+    blocks[3] = (struct sim_block){"guard's damping", sim->guard->rows.damping, size};
+    return 4;
 }
 
 /* The kinetic energy of a block of points, or no number when one of their places or speeds is none: 0 times
@@ -194,8 +201,10 @@ enum status guard_check(struct sim *sim, struct error *err)
 static const char *cause_of(const struct sim *sim, const struct sim_balloon *b)
 {
     const uint32_t cause = sim->guard->memory.cause;
-    if (cause >= GUARD_EFFECTS && cause - GUARD_EFFECTS < sim->hook_count[EFFECT_FORCES])
-        return sim->hooks[EFFECT_FORCES][cause - GUARD_EFFECTS].effect->name;
+    if (cause >= GUARD_EFFECTS && cause - GUARD_EFFECTS < sim->hook_count[EFFECT_FORCES]) {
+        const char *key = sim->hooks[EFFECT_FORCES][cause - GUARD_EFFECTS].effect->name;
+        return strcmp(key, "pressure_on") ? key : "pressure";
+    }
     if (cause == GUARD_SPRINGS)
         return b->membrane ? "membrane" : "springs";
     if (cause == GUARD_DAMPERS)
@@ -232,5 +241,5 @@ void guard_describe(struct sim *sim, char *text, size_t size)
     snprintf(
         text + used, size - (size_t)used,
         "steps up to %.3g are surely stable for %s; most of that is for the %s at point %u of balloons[%zu]",
-        stable, method, cause_of(sim, &sim->balloons[b]), memory->point - sim->balloons[b].point_begin, b);
+        stable, method, cause_of(sim, &sim->balloons[b]), reorder_name(&sim->balloons[b], memory->point), b);
 }

@@ -3,7 +3,7 @@
  * that is not (time.guard).
  *
  *     guard_open(sim, err)        once the tables are complete
- *     guard_step(sim, err)        before each step: splits it, or refuses it
+ *     guard_step(sim, first, err) before each step: splits it, or refuses it
  *     guard_check(sim, err)       after it: the numbers are still those of a balloon
  *     guard_outdated(sim)         whenever masses, springs, dampers or pressures have been changed
  *
@@ -65,7 +65,8 @@ void guard_outdated(struct sim *sim);
 void guard_bound_outdated(struct sim *sim);
 
 /* A point has been cut in two: `like` is the one of which the bound knew. Looks at what holds the point now,
- * the edges in the list; if that asks for a shorter step, all is looked at anew. */
+ * the edges in the list: by the x at hand nobody else's part of the bound has changed. Where that asks for a
+ * shorter step than is taken, or for a much shorter one, all is looked at anew. */
 void guard_cut(struct sim *sim, const struct sim_balloon *balloon, uint32_t point, uint32_t like,
                const uint32_t *edges, uint32_t edge_count);
 

@@ -38,11 +38,13 @@ static double largest_step(const struct limits *l, double stiffness, double damp
 /* Where springs are left out pressure is too: it makes a point tremble, but no more (guard.h). */
 static void find_pressure(const struct sim *sim, const struct guard_rows *rows)
 {
+    double *all[] = {rows->stiffness, rows->damping, rows->push};
+    for (int i = 0; i < 3; i++) /* also of points to come, where torn skin has room for some */
+        memset(all[i], 0, sim->point_count * sizeof *all[i]);
     for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++) {
         const double pressure = fabs(sim_point_pressure(b)), trembling = b->mean_rest_length / 10;
         for (uint32_t p = b->point_begin; p < b->point_end; p++) {
             rows->stiffness[p] = trembling > 0 && !is_outer_only(sim) ? 2 * pressure / trembling : 0;
-            rows->damping[p] = 0;
             rows->push[p] = pressure;
         }
     }
@@ -89,8 +91,9 @@ static struct guard_follow find_rows(struct sim *sim, struct asker *asker)
         note_asker(sim->guard, asker, GUARD_EFFECTS + (uint32_t)i);
     }
     double push = 0;
-    for (uint32_t p = 0; p < sim->point_count; p++)
-        push += rows.push[p] * rows.push[p] / sim->mass[p];
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
+        for (uint32_t p = b->point_begin; p < b->point_end; p++)
+            push += rows.push[p] * rows.push[p] / sim->mass[p];
     sim->guard->memory.push = sqrt(push);
     return follow;
 }
@@ -111,7 +114,8 @@ static void find_edges(const struct sim *sim)
             const double x = guard->x[p[0]] + guard->x[p[1]];
             const struct membrane *m = b->membrane;
             const double weight = m ? m->edge_weight[e - b->edge_begin] : 1;
-            const double spring = (m ? weight * m->stiffness : sim->current_spring_const[e]) * x,
+            const double spring = (m ? weight * b->now->membrane_stiffness : sim->current_spring_const[e]) *
+                                  x,
                          damper = (m ? weight * m->damping : b->now->damping) * x;
             for (int k = 0; k < 2; k++) {
                 guard->springs[p[k]] += spring;
@@ -167,6 +171,9 @@ static enum guard_cause cause_at(const struct sim *sim, const struct limits *l, 
     return dampers > springs ? GUARD_DAMPERS : GUARD_SPRINGS;
 }
 
+/* Cuts may bring the bound down to this share of the sharpest: looking at all points finds more mostly. */
+static const double worth_a_look = 0.9;
+
 void guard_cut(struct sim *sim, const struct sim_balloon *b, uint32_t point, uint32_t like,
                const uint32_t *edges, uint32_t edge_count)
 {
@@ -183,34 +190,60 @@ void guard_cut(struct sim *sim, const struct sim_balloon *b, uint32_t point, uin
         const uint32_t e = edges[i];
         const double x = guard->x[sim->edge_point[e][0]] + guard->x[sim->edge_point[e][1]];
         const double weight = m ? m->edge_weight[e - b->edge_begin] : 1;
-        springs += (m ? weight * m->stiffness : sim->current_spring_const[e]) * x;
+        springs += (m ? weight * b->now->membrane_stiffness : sim->current_spring_const[e]) * x;
         dampers += (m ? weight * m->damping : b->now->damping) * x;
     }
     const double stiffness = springs / guard->x[point] + guard->rows.stiffness[point],
                  damping = dampers / guard->x[point] + guard->rows.damping[point];
-    if (largest_step(&l, stiffness / sim->mass[point], damping / sim->mass[point]) < guard->memory.stable)
-        guard_bound_outdated(sim);
+    const double h = largest_step(&l, stiffness / sim->mass[point], damping / sim->mass[point]);
+    if (h >= guard->memory.stable)
+        return;
+    guard->memory.stable = h;
+    guard->memory.point = point;
+    guard->memory.cause = l.damping * dampers > (h * l.stiffness + l.growth) * springs ? GUARD_DAMPERS
+                                                                                       : GUARD_SPRINGS;
+    if (h < sim->step || h < worth_a_look * guard->memory.sharp)
+        guard->memory.is_known = GUARD_KNOWN_BUT_FOR_CUTS;
+}
+
+/* Cuts change little: mostly one iteration makes x as good as they were. What has become less stiff elsewhere
+ * does not show by that: x that are stiffest motions give all points the same bound. */
+static bool is_as_good(const struct guard_memory *memory, double h)
+{
+    return memory->is_known == GUARD_KNOWN_BUT_FOR_CUTS && h > 0.998 * memory->sharp;
+}
+
+/* Iterates until the bound grows no more. It never falls: what x become at a step h, all of them bear at that
+ * h (Collatz and Wielandt), so that the last x are those that it comes from. */
+static void find_sharpest(struct sim *sim, const struct limits *l)
+{
+    enum { ITERATIONS_MAX = 40 };
+    struct guard_memory *memory = &sim->guard->memory;
+    bool good = false, ends = false;
+    memory->stable = 0;
+    for (int i = 0; i < ITERATIONS_MAX && !ends; i++) {
+        uint32_t point = 0;
+        const double before = memory->stable, h = bound_of(sim, l, &point);
+        if (h > before) {
+            memory->stable = h;
+            memory->point = point;
+            memory->cause = cause_at(sim, l, h, point);
+        }
+        good = is_as_good(memory, h);
+        ends = good || isinf(h) || h == 0 || is_outer_only(sim) ||
+               (i % 4 == 3 && memory->stable < 1.002 * before);
+        if (!ends)
+            sharpen(sim, l, h);
+    }
+    memory->sharp = good ? fmax(memory->sharp, memory->stable) : memory->stable;
 }
 
 void guard_find_bound(struct sim *sim)
 {
-    enum { ITERATIONS_MAX = 40 };
     struct guard_memory *memory = &sim->guard->memory;
     const struct limits l = limits_of(sim);
     const struct guard_follow follow = find_rows(sim, NULL);
-    memory->stable = 0;
-    for (int i = 0; i < ITERATIONS_MAX; i++) {
-        uint32_t point = 0;
-        const double before = memory->stable, h = bound_of(sim, &l, &point);
-        if (h > before) {
-            memory->stable = h;
-            memory->point = point;
-            memory->cause = cause_at(sim, &l, h, point);
-        }
-        if (isinf(h) || h == 0 || is_outer_only(sim) || (i % 4 == 3 && memory->stable < 1.002 * before))
-            break;
-        sharpen(sim, &l, h);
-    }
+    find_sharpest(sim, &l);
     if (memory->cause == GUARD_PRESSURE) {
         struct asker asker = {
             .limits = &l, .h = memory->stable, .point = memory->point, .cause = GUARD_PRESSURE};

@@ -13,7 +13,7 @@ enum guard_cause {
 };
 
 /* What is up to date. */
-enum guard_known { GUARD_UNKNOWN, GUARD_KNOWN, GUARD_REACH_KNOWN };
+enum guard_known { GUARD_UNKNOWN, GUARD_KNOWN, GUARD_REACH_KNOWN, GUARD_KNOWN_BUT_FOR_CUTS };
 
 /* All arrays are [point_count] and owned. */
 struct guard {
@@ -23,7 +23,8 @@ struct guard {
 
     /* What the future depends on; no padding, since it is written and hashed as bytes. */
     struct guard_memory {
-        double stable;     /* s: the bound */
+        double stable;     /* s: the bound, by the x at hand; */
+        double sharp;      /*    and as iterations have found it last */
         double push;       /* sqrt(sum P^2/m) */
         double reach;      /* the most that sqrt(2 E) can be by now */
         double least;      /* and the least that counts: rounding moves points too */

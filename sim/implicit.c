@@ -1,6 +1,7 @@
 #include "sim/implicit.h"
 #include "sim/guard.h"
 #include "sim/jacobian.h"
+#include "sim/reorder.h"
 #include "sim/vectors.h"
 
 #include <math.h>
@@ -213,7 +214,7 @@ static enum status give_up(struct sim *sim, double dt, struct error *err)
         "acceleration of %.3g; %s",
         sim->scene->path, sim->time, (unsigned long long)sim->steps, sim->acting->name,
         chosen ? " (chosen by " : "", chosen ? sim->integrator->name : "", chosen ? ")" : "",
-        dt / GUARD_PARTS_MAX, dt, m->worst_point - b->point_begin, (size_t)(b - sim->balloons), x[0], x[1],
+        dt / GUARD_PARTS_MAX, dt, reorder_name(b, m->worst_point), (size_t)(b - sim->balloons), x[0], x[1],
         x[2], m->worst * GUARD_PARTS_MAX / dt,
         m->is_linear
             ? "what is stiff there is too stiff for 16 digits: softer, heavier or shorter steps will do"

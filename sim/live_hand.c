@@ -2,6 +2,7 @@
 #include "common/array.h"
 #include "common/vec3.h"
 #include "sim/guard.h"
+#include "sim/reorder.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -95,12 +96,20 @@ static void bound(const struct sim *sim, const struct sim_balloon *balloon, cons
     }
 }
 
+static void reorder(struct sim *sim, struct sim_balloon *balloon, const struct reorder *how)
+{
+    (void)balloon;
+    for (struct hand_finger *f = sim->hand->finger; f < sim->hand->finger + sim->hand->count; f++)
+        reorder_points(how, &f->point, 1);
+}
+
 static const struct effect effect_hand = {.name = "hand",
                                           .phase = EFFECT_FORCES,
                                           .wanted = never, /* by no scene: it is there while it holds */
                                           .apply = apply,
                                           .product = product,
                                           .bound = bound,
+                                          .reorder = reorder,
                                           .source = "a spring a point"};
 
 enum status hand_open(struct hand *hand, struct sim *sim, struct error *err)
@@ -135,6 +144,13 @@ static struct sim_balloon *balloon_of(const struct sim *sim, uint32_t triangle)
     return b;
 }
 
+/* What a stretch along one line is resisted with, force/length, so that a hand is as strong as the skin. */
+static double skin_stiffness(const struct scene_balloon *balloon)
+{
+    const struct scene_membrane *membrane = &balloon->membrane;
+    return membrane->on ? membrane->shear_modulus * membrane->thickness : balloon->spring;
+}
+
 /* Weights fall as (1 - r^2)^2 from the hit to the patch's edge; the hit's own corners are
  * held however far they are. */
 static void add_finger(struct hand *hand, const struct sim *sim, const struct sim_balloon *balloon,
@@ -151,7 +167,7 @@ static void add_finger(struct hand *hand, const struct sim *sim, const struct si
         return;
     struct hand_finger *finger = &hand->finger[hand->count++];
     finger->point = p;
-    finger->stiffness = weight * stiffness_ratio * balloon->scene->spring;
+    finger->stiffness = weight * stiffness_ratio * skin_stiffness(balloon->scene);
     memcpy(finger->place, sim->position[p], sizeof finger->place);
 }
 

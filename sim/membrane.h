@@ -39,8 +39,7 @@ struct membrane {
     double *edge_weight;
     double (*range)[2]; /* [part_count] largest a and least D by the last forces. Owned. */
     const struct membrane_kernels *kernels;
-    double stiffness; /* the guard's springs are edge_weight times this, and its dampers times the next */
-    double damping;
+    double damping; /* the guard's dampers are edge_weight times this; its springs: settings */
 };
 
 /* A triangle as it is now. */

@@ -1,6 +1,8 @@
 /* The balloons' meshes, from file to something that can hold air. */
 #include "common/vec3.h"
-#include "sim/sim.h"
+#include "sim/reorder.h"
+
+#include <string.h>
 
 /* Air leaks through a boundary, and an edge of three triangles has no inside: say where. */
 static enum status check_surface(const char *path, const struct mesh *mesh, const struct mesh_report *report,
@@ -87,12 +89,18 @@ enum status sim_skin(const struct sim *sim, struct mesh *mesh, struct error *err
     enum status status = mesh_init(&skin, sim->point_count, active, false, err);
     if (status)
         return status;
-    for (uint32_t p = 0; p < sim->point_count; p++)
-        for (int i = 0; i < 3; i++)
-            skin.position[p][i] = sim->position[p][i];
-    for (uint32_t t = 0, to = 0; t < sim->triangle_count; t++)
-        for (int k = 0; k < 3 && sim->triangle_active[t]; k++)
-            skin.triangle[to][k] = sim->triangle_point[t][k], to += k == 2;
+    const struct sim_balloon *b = sim->balloons;
+    for (; b < sim->balloons + sim->balloon_count; b++)
+        for (uint32_t name = 0; name < b->point_room - b->point_begin; name++)
+            memcpy(skin.position[b->point_begin + name], sim->position[reorder_point(b, name)],
+                   sizeof *skin.position);
+    uint32_t to = 0;
+    for (b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
+        for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++) {
+            for (int k = 0; k < 3 && sim->triangle_active[t]; k++)
+                skin.triangle[to][k] = b->point_begin + reorder_name(b, sim->triangle_point[t][k]);
+            to += sim->triangle_active[t];
+        }
     *mesh = skin;
     return STATUS_OK;
 }

@@ -187,7 +187,8 @@ static enum status fill_balloon(struct sim *sim, struct sim_balloon *b, const st
                                         b->scene->gas.pump,
                                         b->scene->gas.pump_until,
                                         0,
-                                        {0}};
+                                        {0},
+                                        0};
     }
     free(places.edge);
     free(places.triangle);

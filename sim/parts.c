@@ -97,87 +97,6 @@ static bool has_room(const struct sim_balloon *b)
     return b->point_room > b->point_end;
 }
 
-/* The part that works on a torn balloon's new points: nothing as yet, but with room
- * for all that can come in. */
-static bool make_tail(struct sim *sim, struct sim_part *part)
-{
-    enum { FAN = 8 }; /* triangles that get a new point with each: half a fan, mostly */
-    const struct sim_balloon *b = part->balloon;
-    const uint64_t most = (uint64_t)FAN * (b->point_room - b->point_end) + 1;
-    const uint32_t edges = b->edge_end - b->edge_begin, triangles = b->triangle_end - b->triangle_begin;
-    part->point_begin = part->point_end = part->inner_begin = part->inner_end = b->point_end;
-    part->edge_begin = part->edge_end = b->edge_end;
-    part->triangle_begin = part->triangle_end = b->triangle_end;
-    part->edge_in_room = most < edges ? (uint32_t)most : edges;
-    part->triangle_in_room = most < triangles ? (uint32_t)most : triangles;
-    part->edge_in = part->edge_in_own = sim_table(sim, part->edge_in_room, sizeof *part->edge_in);
-    part->triangle_in = sim_table(sim, part->triangle_in_room, sizeof *part->triangle_in);
-    part->chunks = calloc(1, sizeof *part->chunks);
-    if (!part->edge_in || !part->triangle_in || !part->chunks)
-        return false;
-    part->chunk_count = 1;
-    part->chunks[0] = (struct sim_chunk){.triangle_begin = b->triangle_end,
-                                         .triangle_end = b->triangle_end,
-                                         .triangle_inner_end = b->triangle_end};
-    parts_extend(part, b->point_end, b->edge_end);
-    return true;
-}
-
-void parts_extend(struct sim_part *tail, uint32_t point_end, uint32_t edge_end)
-{
-    struct sim_chunk *c = tail->chunks;
-    tail->point_end = point_end;
-    tail->edge_end = edge_end;
-    c->point_begin = c->clear_begin = tail->point_begin;
-    c->point_end = c->clear_end = point_end;
-    c->edge_begin = c->edge_inner_end = tail->edge_begin;
-    c->edge_end = edge_end;
-}
-
-void parts_take_edge(struct sim_part *part, uint32_t edge)
-{
-    *--part->edge_in = edge;
-    part->edge_in_count++;
-    part->edge_in_new++;
-    part->chunks[0].clear_end = part->point_end; /* its points may be anywhere: all are cleared at once */
-    for (uint32_t i = 1; i < part->chunk_count && part->chunks[i].clear_begin < part->point_end; i++)
-        part->chunks[i].clear_begin = part->chunks[i].clear_end = part->point_end;
-}
-
-void parts_forget(struct sim *sim, const struct sim_balloon *balloon)
-{
-    for (struct sim_part *part = sim->parts; part < sim->parts + sim->part_count; part++) {
-        if (part->balloon != balloon)
-            continue;
-        part->edge_in += part->edge_in_new;
-        part->edge_in_count -= part->edge_in_new;
-        part->edge_in_new = 0;
-    }
-}
-
-void parts_loosen_edge(struct sim *sim, const struct sim_balloon *balloon, uint32_t edge)
-{
-    for (struct sim_part *part = sim->parts; part < sim->parts + sim->part_count; part++)
-        if (part->balloon == balloon && edge - part->edge_begin < part->edge_end - part->edge_begin) {
-            struct sim_chunk *c = part->chunks;
-            while (edge >= c->edge_end)
-                c++;
-            c->edge_inner_end = edge < c->edge_inner_end ? edge : c->edge_inner_end;
-        }
-}
-
-void parts_loosen_triangle(struct sim *sim, const struct sim_balloon *balloon, uint32_t triangle)
-{
-    for (struct sim_part *part = sim->parts; part < sim->parts + sim->part_count; part++)
-        if (part->balloon == balloon &&
-            triangle - part->triangle_begin < part->triangle_end - part->triangle_begin) {
-            struct sim_chunk *c = part->chunks;
-            while (triangle >= c->triangle_end)
-                c++;
-            c->triangle_inner_end = triangle < c->triangle_inner_end ? triangle : c->triangle_inner_end;
-        }
-}
-
 /* Points of a chunk: with their neighbours they take about a tenth of a megabyte for each thousand. */
 enum { CHUNK_POINTS = 2048 };
 
@@ -252,6 +171,8 @@ static void fill_chunk(const struct sim *sim, const struct sim_part *part, struc
                                           &c->edge_inner_end);
     const uint32_t by_triangles = touched_end(triangles, 3, c->triangle_begin, c->triangle_end,
                                               part->point_end, &c->triangle_inner_end);
+    c->edge_inner_most = c->edge_inner_end;
+    c->triangle_inner_most = c->triangle_inner_end;
     c->clear_end = larger(larger(c->clear_begin, c->point_end), larger(by_edges, by_triangles));
 }
 
@@ -311,7 +232,7 @@ enum status parts_open(struct sim *sim, struct error *err)
     for (struct sim_balloon *b = sim->balloons; b < end && good; b++) {
         for (unsigned i = 0; i < workers + has_room(b); i++)
             part[i].balloon = b;
-        good = make_parts(sim, b, part, workers) && (!has_room(b) || make_tail(sim, &part[workers]));
+        good = make_parts(sim, b, part, workers) && (!has_room(b) || parts_make_tail(sim, &part[workers]));
         part += workers + has_room(b);
     }
     return good ? STATUS_OK : error_no_memory(err, "the workers' parts");

@@ -5,6 +5,7 @@
 #include "common/mesh.h"
 #include "common/status.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 struct sim;
@@ -36,6 +37,8 @@ struct sim_chunk {
     uint32_t edge_inner_end;               /* up to this one all their points are the part's */
     uint32_t triangle_begin, triangle_end; /* likewise */
     uint32_t triangle_inner_end;
+    uint32_t edge_inner_most,
+        triangle_inner_most; /* the same while nothing has got points of the last part */
 };
 
 /* Runs function on every part, each on its worker, and returns when all are done. */
@@ -49,13 +52,18 @@ void parts_order(const struct mesh *mesh, uint32_t *edge_place, uint32_t *triang
 enum status parts_open(struct sim *sim, struct error *err);
 void parts_close(struct sim *sim);
 
-/* For cuts (topology.h), none of which allocates. The part of new points reaches this far; a new edge comes
- * into a part with some of its points; all such edges go again; an edge or a triangle has got points that
- * another part works on. */
+/* For cuts (topology.h; parts_torn.c). Makes the part of new points, a balloon's last; false: no memory. */
+bool parts_make_tail(struct sim *sim, struct sim_part *tail);
+/* None of these allocates. The part of new points reaches this far; a new edge comes into the parts of its
+ * points; all such edges go again; an edge or a triangle has got points that another part works on. */
 void parts_extend(struct sim_part *tail, uint32_t point_end, uint32_t edge_end);
-void parts_take_edge(struct sim_part *part, uint32_t edge);
+void parts_new_edge(struct sim *sim, const struct sim_balloon *balloon, uint32_t edge);
 void parts_forget(struct sim *sim, const struct sim_balloon *balloon);
 void parts_loosen_edge(struct sim *sim, const struct sim_balloon *balloon, uint32_t edge);
 void parts_loosen_triangle(struct sim *sim, const struct sim_balloon *balloon, uint32_t triangle);
+/* The balloon's points have other numbers, place[number less the balloon's first] (reorder.h): each part has
+ * the new points of its old ones, and from tail_begin on the last part has them. Edges know theirs. */
+void parts_renumber(struct sim *sim, const struct sim_balloon *balloon, const uint32_t *place,
+                    uint32_t tail_begin);
 
 #endif

@@ -3,8 +3,8 @@
  *
  *     if (sim_load_meshes(&scene, meshes, reports, err)) ...
  *     struct sim sim = {0};
- *     if (sim_open(&sim, &scene, meshes, err)) ...     allocates; the scene must outlive the sim
- *     while (sim.time < scene.time.end)
+ *     if (sim_open(&sim, &scene, meshes, 0, err)) ...  allocates; the scene must outlive the sim
+ *     while (!sim_at_end(&sim))
  *         if (sim_step(&sim, err)) ...                 never allocates; STATUS_DIVERGED names the point
  *     sim_clear(&sim);
  *
@@ -90,7 +90,8 @@ struct sim_settings {
     double threshold_length;                 /* at which an edge lets go */
     double pump, pump_until;                 /* likewise, where there is gas */
     uint64_t ripped;                         /* 1: the scene's rip has opened */
-    double membrane_range[2];                /* what the guard takes its stiffness for (membrane.h) */
+    double membrane_range[2];  /* what the guard takes a membrane's stiffness for (membrane.h), */
+    double membrane_stiffness; /* and that, on an edge whose weight is 1 */
 };
 
 /* The paper's pressure, a force on each point along its unit normal: 0 where pressure acts on areas. */

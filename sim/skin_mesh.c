@@ -1,6 +1,7 @@
 #include "sim/skin_mesh.h"
 #include "common/array.h"
 #include "sim/measure.h"
+#include "sim/reorder.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -95,10 +96,11 @@ static void take_joined(struct skin_mesh *skin)
     const struct sim *sim = skin->sim;
     struct mesh *mesh = &skin->mesh;
     mesh->point_count = mesh->triangle_count = 0;
-    for (uint32_t p = 0; p < sim->point_count; p++)
-        if (skin->number[p] != MESH_NONE) {
-            skin->number[p] = mesh->point_count++;
-            take_point(skin, p, skin->number[p]);
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
+        for (uint32_t name = 0; name < b->point_end - b->point_begin; name++) {
+            const uint32_t p = reorder_point(b, name);
+            if (skin->number[p] != MESH_NONE)
+                take_point(skin, p, skin->number[p] = mesh->point_count++);
         }
     for (uint32_t t = 0; t < sim->triangle_count; t++) {
         for (int k = 0; k < 3 && sim->triangle_active[t]; k++)

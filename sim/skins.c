@@ -6,6 +6,7 @@
 #include "sim/props.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* How far below the middle the floor lies, in radii of the ball around all points at rest: legs reach further
  * down than the first, and swollen skin about to the second. */
@@ -77,18 +78,47 @@ static float area_stretch(const struct sim *sim, uint32_t t)
     return rest > 0 && isfinite(area) ? (float)fmin(area / rest, 1e6) : 1;
 }
 
+/* Adds a triangle's normal to its corners', each by sin(angle)/(product of the two sides there): with these
+ * weights points of a sphere get its very normals, however irregular the triangles are, which is what keeps
+ * the edges of highlights smooth (Max, "Weights for computing vertex normals from facet normals", 1999). */
+static void add_normal(struct skins *skins, uint32_t t)
+{
+    const uint32_t *p = skins->sim->triangle_point[t];
+    double side[3][3], square[3], twice[3];
+    for (int k = 0; k < 3; k++) {
+        vec3_sub(skins->position[p[(k + 1) % 3]], skins->position[p[k]], side[k]);
+        square[k] = vec3_dot(side[k], side[k]);
+    }
+    vec3_cross(side[0], side[1], twice);
+    for (int k = 0; k < 3; k++) {
+        const double both = square[k] * square[(k + 2) % 3], weight = both > 0 ? 1 / both : 0;
+        for (int i = 0; i < 3; i++)
+            skins->normal[p[k]][i] += weight * twice[i];
+    }
+}
+
+static void find_normals(struct skins *skins)
+{
+    const struct sim *sim = skins->sim;
+    memset(skins->normal, 0, sim->point_count * sizeof *skins->normal);
+    for (uint32_t t = 0; t < sim->triangle_count; t++)
+        if (sim->triangle_active[t])
+            add_normal(skins, t);
+    for (uint32_t p = 0; p < sim->point_count; p++) {
+        const double length = vec3_length(skins->normal[p]);
+        for (int i = 0; i < 3; i++)
+            skins->normal[p][i] = length > 0 ? skins->normal[p][i] / length : 0;
+    }
+}
+
 void skins_update(struct skins *skins)
 {
     const struct sim *sim = skins->sim;
-    sim_forces(skins->sim); /* for the normals where the points are now */
     for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
-        for (uint32_t p = b->point_begin; p < b->point_end; p++) {
-            const double length = b->by_area ? vec3_length(sim->normal[p]) : 1;
-            for (int i = 0; i < 3; i++) {
+        for (uint32_t p = b->point_begin; p < b->point_end; p++)
+            for (int i = 0; i < 3; i++)
                 skins->position[p][i] = sim->position[p][i];
-                skins->normal[p][i] = length > 0 ? sim->normal[p][i] / length : 0;
-            }
-        }
+    find_normals(skins);
     sim_material(skins->sim, skins->opacity, skins->shininess);
     skins->lowest = INFINITY;
     for (uint32_t t = 0; t < sim->triangle_count; t++) {

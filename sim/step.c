@@ -6,6 +6,7 @@
 #include "sim/kernels.h"
 #include "sim/ledger.h"
 #include "sim/membrane_kernels.h"
+#include "sim/reorder.h"
 #include "sim/sweep.h"
 #include "sim/vectors.h"
 
@@ -153,6 +154,7 @@ static void change_by_schedule(struct sim *sim)
 static enum status begin_step(struct sim *sim, struct error *err)
 {
     const bool first = sim->steps_since % sim->substeps == 0;
+    reorder_step(sim); /* where skin is torn */
     if (first)
         change_by_schedule(sim);
     if (sim->integrator->choose && !sim->integrator->choose(sim, first))

@@ -1,7 +1,8 @@
-#include "sim/topology.h"
 #include "common/vec3.h"
+#include "sim/effect_gas.h"
 #include "sim/guard.h"
 #include "sim/membrane.h"
+#include "sim/reorder.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -80,6 +81,10 @@ static void measure_rest(const struct sim *sim, const struct sim_balloon *b)
     struct topology *top = b->topology;
     for (uint32_t p = b->point_begin; p < b->point_end; p++)
         memcpy(top->rest[p - b->point_begin], sim->position[p], sizeof *top->rest);
+    for (uint32_t p = 0; p < b->point_room - b->point_begin; p++) {
+        top->name[p] = top->named[p] = p;
+        top->family[p] = p < b->point_end - b->point_begin ? p : 0;
+    }
     for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++) {
         const uint32_t *p = sim->triangle_point[t];
         double twice[3];
@@ -114,15 +119,24 @@ enum status topology_open(struct sim *sim, struct sim_balloon *b, struct error *
     top->triangle_at = sim_table(sim, points, sizeof *top->triangle_at);
     top->late_edge = sim_table(sim, edges, sizeof *top->late_edge);
     top->late_triangle = sim_table(sim, triangles, sizeof *top->late_triangle);
+    top->slow_from = sim_table(sim, triangles / TOPOLOGY_STRETCH + 1, sizeof *top->slow_from);
     top->rim = sim_table(sim, top->rim_room, sizeof *top->rim);
+    top->name = sim_table(sim, points, sizeof *top->name);
+    top->named = sim_table(sim, points, sizeof *top->named);
+    top->family = sim_table(sim, points, sizeof *top->family);
+    top->place = sim_table(sim, points, sizeof *top->place);
+    top->spare_numbers = sim_table(sim, points, sizeof *top->spare_numbers);
+    top->spare = sim_table(sim, points, sizeof *sim->position);
     uint32_t *one = malloc(edges * sizeof *one);
     const bool room = top->neighbour && top->rest_area && top->rest && top->triangle_at && top->late_edge &&
-                      top->late_triangle && top->rim && one;
+                      top->late_triangle && top->slow_from && top->rim && top->name && top->named &&
+                      top->family && top->place && top->spare_numbers && top->spare && one;
     if (room) {
         memset(one, 0xff, edges * sizeof *one);
         connect(sim, b, one);
         measure_rest(sim, b);
         top->tail = last_part(sim, b);
+        topology_nothing_slow(b);
     }
     free(one);
     return room ? STATUS_OK : error_no_memory(err, "how the skin hangs together");
@@ -133,84 +147,14 @@ void topology_close(struct sim_balloon *b)
     struct topology *top = b->topology;
     if (!top)
         return;
-    void *arrays[] = {top->neighbour, top->rest_area,     top->rest, top->triangle_at,
-                      top->late_edge, top->late_triangle, top->rim};
+    void *arrays[] = {top->neighbour,     top->rest_area,     top->rest,      top->triangle_at,
+                      top->late_edge,     top->late_triangle, top->slow_from, top->rim,
+                      top->name,          top->named,         top->family,    top->place,
+                      top->spare_numbers, top->spare};
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
         free(arrays[i]);
     free(top);
     b->topology = NULL;
-}
-
-size_t topology_blocks(struct sim *sim, struct sim_balloon *b, struct sim_block *blocks)
-{
-    struct topology *top = b->topology;
-    const size_t triangles = b->triangle_end - b->triangle_begin, points = b->point_room - b->point_begin,
-                 edges = b->edge_room - b->edge_begin, new_edges = b->edge_room - top->old_edges;
-    const struct sim_block own[] = {
-        {"cuts", &top->now, sizeof top->now},
-        {"edge points", sim->edge_point + b->edge_begin, edges * sizeof *sim->edge_point},
-        {"triangle points", sim->triangle_point + b->triangle_begin, triangles * sizeof *sim->triangle_point},
-        {"triangle edges", sim->triangle_edge + b->triangle_begin, triangles * sizeof *sim->triangle_edge},
-        {"masses", sim->mass + b->point_begin, points * sizeof *sim->mass},
-        {"rest lengths", sim->rest_length + top->old_edges, new_edges * sizeof *sim->rest_length},
-        {"springs", sim->init_spring_const + b->edge_begin, edges * sizeof *sim->init_spring_const},
-        {"neighbours", top->neighbour, triangles * sizeof *top->neighbour},
-        {"rest", top->rest + (top->old_points - b->point_begin),
-         (b->point_room - top->old_points) * sizeof *top->rest},
-        {"triangle at", top->triangle_at, points * sizeof *top->triangle_at},
-        {"rims", top->rim, top->rim_room * sizeof *top->rim},
-        {"late edges", top->tail->edge_in, top->tail->edge_in_room * sizeof(uint32_t)},
-        {"late triangles", top->tail->triangle_in, top->tail->triangle_in_room * sizeof(uint32_t)},
-    };
-    size_t count = sizeof own / sizeof own[0];
-    memcpy(blocks, own, sizeof own);
-    if (b->membrane)
-        blocks[count++] = (struct sim_block){"weights", b->membrane->edge_weight,
-                                             edges * sizeof *b->membrane->edge_weight};
-    return count;
-}
-
-/* The part that works on one of the balloon's old points. */
-static struct sim_part *part_of(const struct sim_balloon *b, uint32_t point)
-{
-    struct sim_part *part = b->topology->tail;
-    while (point < part->point_begin)
-        part--;
-    return part;
-}
-
-static void comes_into(struct sim *sim, struct sim_balloon *b, uint32_t edge)
-{
-    struct sim_part *before = NULL;
-    for (int k = 0; k < 2; k++) {
-        struct sim_part *part = part_of(b, sim->edge_point[edge][k]);
-        if (part != b->topology->tail && part != before)
-            parts_take_edge(part, edge);
-        before = part;
-    }
-}
-
-void topology_restored(struct sim *sim, struct sim_balloon *b)
-{
-    struct topology *top = b->topology;
-    memset(top->late_edge, 0, b->edge_room - b->edge_begin);
-    memset(top->late_triangle, 0, b->triangle_end - b->triangle_begin);
-    b->point_end = top->old_points + top->now.points;
-    b->edge_end = top->old_edges + top->now.edges;
-    parts_forget(sim, b);
-    parts_extend(top->tail, b->point_end, b->edge_end);
-    for (uint32_t e = top->old_edges; e < b->edge_end; e++)
-        comes_into(sim, b, e);
-    top->tail->edge_in_count = top->now.late_edges;
-    top->tail->triangle_in_count = top->now.late_triangles;
-    for (uint32_t i = 0; i < top->now.late_edges; i++) {
-        top->late_edge[top->tail->edge_in[i] - b->edge_begin] = 1;
-        parts_loosen_edge(sim, b, top->tail->edge_in[i]);
-    }
-    for (uint32_t i = 0; i < top->now.late_triangles; i++) {
-        top->late_triangle[top->tail->triangle_in[i] - b->triangle_begin] = 1;
-        parts_loosen_triangle(sim, b, top->tail->triangle_in[i]);
-    }
 }
 
 /* The last part adds up what acts on new points, whoever has the slot. New edges have theirs there. */
@@ -225,15 +169,37 @@ static void edge_is_late(struct sim *sim, struct sim_balloon *b, uint32_t edge)
     parts_loosen_edge(sim, b, edge);
 }
 
+void topology_slow(struct sim *sim, struct sim_balloon *b, uint32_t triangle)
+{
+    struct topology *top = b->topology;
+    const uint32_t t = triangle - b->triangle_begin;
+    uint32_t *from = &top->slow_from[t / TOPOLOGY_STRETCH];
+    top->late_triangle[t] = 1;
+    top->slow += t < *from ? *from - t : 0;
+    *from = t < *from ? t : *from;
+    parts_loosen_triangle(sim, b, triangle);
+}
+
+void topology_nothing_slow(const struct sim_balloon *b)
+{
+    struct topology *top = b->topology;
+    const uint32_t triangles = b->triangle_end - b->triangle_begin;
+    memset(top->late_edge, 0, b->edge_room - b->edge_begin);
+    memset(top->late_triangle, 0, triangles);
+    for (uint32_t i = 0; i <= triangles / TOPOLOGY_STRETCH; i++)
+        top->slow_from[i] = triangles - i * TOPOLOGY_STRETCH < TOPOLOGY_STRETCH ? triangles
+                                                                                : (i + 1) * TOPOLOGY_STRETCH;
+    top->slow = 0;
+}
+
 static void triangle_is_late(struct sim *sim, struct sim_balloon *b, uint32_t triangle)
 {
     struct topology *top = b->topology;
     if (top->late_triangle[triangle - b->triangle_begin])
         return;
-    top->late_triangle[triangle - b->triangle_begin] = 1;
     top->tail->triangle_in[top->tail->triangle_in_count++] = triangle;
     top->now.late_triangles++;
-    parts_loosen_triangle(sim, b, triangle);
+    topology_slow(sim, b, triangle);
 }
 
 /* What is remembered of the point is true of its copy. */
@@ -242,6 +208,7 @@ static uint32_t copy_point(struct sim *sim, struct sim_balloon *b, uint32_t poin
     struct topology *top = b->topology;
     const uint32_t copy = b->point_end++;
     top->now.points++;
+    top->family[copy - b->point_begin] = top->family[top->name[point - b->point_begin]];
     for (int i = 0; i < 4; i++) {
         sim->position[copy][i] = sim->position[point][i];
         sim->velocity[copy][i] = sim->velocity[point][i];
@@ -251,6 +218,7 @@ static uint32_t copy_point(struct sim *sim, struct sim_balloon *b, uint32_t poin
             sim->scratch[s][copy][i] = sim->scratch[s][point][i];
     }
     memcpy(top->rest[copy - b->point_begin], top->rest[point - b->point_begin], sizeof *top->rest);
+    gas_hold_copy(b, point, copy);
     sim->mass[copy] = sim->mass[point] * share;
     sim->mass[point] -= sim->mass[copy];
     parts_extend(top->tail, b->point_end, b->edge_end);
@@ -336,7 +304,7 @@ static uint32_t double_edge(struct sim *sim, struct sim_balloon *b, uint32_t edg
     sim->broken_length[copy] = sim->broken_length[edge];
     sim->edge_active[copy] = sim->edge_active[edge];
     parts_extend(b->topology->tail, b->point_end, b->edge_end);
-    comes_into(sim, b, copy);
+    parts_new_edge(sim, b, copy);
     return copy;
 }
 
@@ -376,7 +344,10 @@ void topology_cut(struct sim *sim, struct sim_balloon *b, uint32_t triangle, int
             ;
         if (last.triangle != other)
             split(sim, b, (struct fan){other, corner_of(sim, other, point)}, end == 1, from);
+        else
+            tell_guard(sim, b, point, point); /* of the second edge's damper */
     }
+    reorder_wake(sim, b);
     sim->changed = true;
     sim->broken++;
 }

@@ -16,7 +16,8 @@
  * move up. What is new is worked on by a part of its own, the balloon's last; edges and triangles keep their
  * slots, and those that have got a new point join that part's lists of what comes in. New edges come into the
  * parts of their old points, ahead of all others. So what acts on a point is added up in an order that does
- * not depend on the parts, and a cut touches memory around it alone.
+ * not depend on the parts, and a cut touches memory around it alone. When it has rested from tearing the
+ * new points come to their places among the old ones (reorder.h).
  *
  * Numbers of triangles and sides are those of sim's tables.
  */
@@ -25,6 +26,9 @@
 
 #include "sim/sim.h"
 
+/* About as many triangles as a chunk has (parts.h), but alike for any number of workers. */
+enum { TOPOLOGY_STRETCH = 4096 };
+
 /* A balloon's connections. Arrays are owned; [triangles], [points] and [edges] are of the balloon's
  * triangles, points with room and edges with room, from its first on. */
 struct topology {
@@ -32,8 +36,15 @@ struct topology {
     double *rest_area;        /* [triangles] */
     double (*rest)[3];        /* [points] places at rest */
     uint32_t *triangle_at;    /* [points] one of the triangles around it */
-    unsigned char *late_edge; /* [edges] 1: in the last part's list */
+    uint32_t *name;   /* [points] its own number as it was made, less the balloon's first (reorder.h) */
+    uint32_t *named;  /* [points] the other way round */
+    uint32_t *family; /* [points] by name: that of the old point that it was made from in the end */
+    uint32_t *place, *spare_numbers; /* [points] for putting points in order, */
+    void *spare;                     /* and rows of 32 bytes */
+    unsigned char *late_edge;        /* [edges] 1: in the last part's list */
     unsigned char *late_triangle;
+    uint32_t *slow_from;   /* [triangles / TOPOLOGY_STRETCH + 1] the first late one of each stretch */
+    uint32_t slow;         /* triangles from there on in theirs, which are not worked out four at a time */
     struct sim_part *tail; /* the balloon's last part: what is new */
     uint32_t old_points, old_edges;
     uint32_t rim_room;
@@ -46,7 +57,12 @@ struct topology {
         uint32_t late_edges, late_triangles; /* in the last part's lists */
         uint32_t rims;                       /* sides in rim */
         uint32_t refused;                    /* cuts for which there was no room */
-        double torn;                         /* length at rest of all that was cut */
+        uint32_t settled;                    /* of the new points those that have come to their places */
+        uint32_t orders;                     /* how often some have */
+        uint64_t awake;                      /* REORDER_SLEEPS or another */
+        uint64_t slowed; /* triangles that took longer since new points last came there, a step each */
+        double last_cut; /* s */
+        double torn;     /* length at rest of all that was cut */
     } now;
 };
 
@@ -60,6 +76,9 @@ void topology_close(struct sim_balloon *balloon);
 /* Blocks of state; and what follows from them, after they were put back. */
 size_t topology_blocks(struct sim *sim, struct sim_balloon *balloon, struct sim_block *blocks);
 void topology_restored(struct sim *sim, struct sim_balloon *balloon);
+/* A triangle has got a new point; none has any more, and no edge either. */
+void topology_slow(struct sim *sim, struct sim_balloon *balloon, uint32_t triangle);
+void topology_nothing_slow(const struct sim_balloon *balloon);
 /* Whether blocks that may be anything are those of a skin, before topology_restored(). */
 bool topology_is_sound(const struct sim *sim, const struct sim_balloon *balloon);
 

@@ -1,7 +1,9 @@
-/* What a tear costs, at 5 thousand and 300 thousand triangles: a cut by itself, and steps before and while a
- * pricked balloon bursts. */
+/* What a tear costs, at 5 thousand and 300 thousand triangles: a cut by itself, steps before and while a
+ * pricked balloon bursts, and steps of the torn skin (the smaller one's shreds) while its new points wait
+ * behind the others, and once they are in their places. */
 #include "common/vec3.h"
 #include "sim/fracture.h"
+#include "sim/reorder.h"
 #include "support/bench.h"
 #include "support/rubber.h"
 #include "support/shapes.h"
@@ -51,27 +53,52 @@ static double seconds_an_event(struct sim *sim, uint32_t *events)
     return (bench_thread_seconds() - began) / *events;
 }
 
+/* While new points wait: it is kept from waking. */
+static double seconds_while_waiting(struct sim *sim, int steps)
+{
+    double sum = 0;
+    for (int i = 0; i < steps; i++) {
+        sim->balloons->topology->now.awake = REORDER_SLEEPS;
+        sum += seconds_a_step(sim, 1);
+    }
+    return sum / steps;
+}
+
+/* As if it had rested; the step in which that is found. */
+static double seconds_of_ordering(struct sim *sim)
+{
+    sim->balloons->topology->now.awake = REORDER_AWAKE;
+    sim->balloons->topology->now.last_cut = -INFINITY;
+    return seconds_a_step(sim, 1);
+}
+
 static void measure(unsigned level)
 {
     struct scene scene = {0};
     struct sim sim;
     open_balloon(level, &scene, &sim);
-    const int steps = level > 5 ? 8 : 200;
+    const int steps = level > 5 ? 40 : 200;
     seconds_a_step(&sim, 2);
     const double before = seconds_a_step(&sim, steps);
     fracture_prick(&sim, sim.balloons, (const double[3]){0, 0, 2});
     const double during = seconds_a_step(&sim, steps);
     uint32_t events;
     const double event = seconds_an_event(&sim, &events);
-    printf("%9u  %12.3f  %12.3f  %8.2f  %8u  %12.2f\n", sim.triangle_count, 1e3 * before, 1e3 * during,
-           during / before, events, 1e6 * event);
+    seconds_while_waiting(&sim, level > 5 ? 0 : 4000);
+    const double waiting = seconds_while_waiting(&sim, steps), ordering = seconds_of_ordering(&sim),
+                 ordered = seconds_a_step(&sim, steps);
+    printf("%9u  %8.3f  %8.3f  %6.2f  %8u  %12.2f  %8.3f  %8.3f  %8.3f\n", sim.triangle_count, 1e3 * before,
+           1e3 * during, during / before, events, 1e6 * event, 1e3 * waiting, 1e3 * ordering, 1e3 * ordered);
     sim_clear(&sim);
     scene_clear(&scene);
 }
 
 int main(void)
 {
-    printf("triangles  step before  during tears     ratio    events  us an event\n");
+    printf(
+        "ms a step: whole, as it tears, torn with new points behind the others, the step in which they come to "
+        "their places, and after it\n");
+    printf("triangles     whole     tears   ratio    events   us an event   waiting  ordering   ordered\n");
     measure(4);
     measure(7);
     return 0;

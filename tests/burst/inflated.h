@@ -26,8 +26,8 @@ struct inflation {
     double turned;  /* radians: another mesh for the same balloon */
     double step;    /* times the usual one */
     unsigned workers;
-    bool springs;        /* in place of the membrane, without gas */
-    const char *keys[4]; /* of the scene, further ones */
+    bool springs;         /* in place of the membrane, without gas */
+    const char *keys[16]; /* of the scene, further ones */
 };
 
 static inline void inflated_set(struct scene *scene, const char *key, double value)
@@ -77,7 +77,7 @@ static inline void inflate(struct inflated *it, const struct inflation *how)
     inflated_set(&it->scene, "time.end", 100);
     assert_ok(scene_set(&it->scene, "time.guard=substep", &err), &err);
     assert_ok(scene_set(&it->scene, "balloons[0].fracture.mode=tear", &err), &err);
-    for (size_t i = 0; i < 4 && how->keys[i]; i++)
+    for (size_t i = 0; i < sizeof how->keys / sizeof how->keys[0] && how->keys[i]; i++)
         assert_ok(scene_set(&it->scene, how->keys[i], &err), &err);
     assert_ok(scene_check(&it->scene, &err), &err);
     assert_ok(sim_open(&it->sim, &it->scene, &mesh, how->workers ? how->workers : 1, &err), &err);

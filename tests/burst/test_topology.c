@@ -1,7 +1,7 @@
 /* Cuts by themselves: a skin stays a manifold with boundary, and nothing is lost. */
-#include "burst/inflated.h"
-#include "common/random.h"
-#include "sim/guard.h"
+#include "burst/cuts.h"
+#include "sim/gas.h"
+#include "sim/guard_bound.h"
 
 struct sums {
     double mass, momentum[3], area;
@@ -21,29 +21,6 @@ static struct sums sums_of(const struct inflated *it)
     return s;
 }
 
-static void give_speeds(struct inflated *it)
-{
-    uint64_t state = 5;
-    for (uint32_t p = 0; p < it->balloon->point_end; p++)
-        for (int i = 0; i < 3; i++)
-            it->sim.velocity[p][i] = random_unit(&state) - 0.5;
-}
-
-/* Cuts `count` sides of triangles that come as they may. */
-static void cut_anywhere(struct inflated *it, int count)
-{
-    uint64_t state = 11;
-    for (int done = 0; done < count;) {
-        const uint32_t t = (uint32_t)(random_unit(&state) * it->balloon->triangle_end);
-        const int side = (int)(random_unit(&state) * 3);
-        if (it->balloon->topology->neighbour[t][side] == MESH_NONE)
-            continue;
-        assert_true(topology_can_cut(&it->sim, it->balloon));
-        topology_cut(&it->sim, it->balloon, t, side);
-        done++;
-    }
-}
-
 static void cuts_keep_mass_area_and_momentum(void **unused)
 {
     (void)unused;
@@ -51,7 +28,7 @@ static void cuts_keep_mass_area_and_momentum(void **unused)
     inflate(&it, &(struct inflation){.level = 3, .stretch = 1.5, .springs = true});
     give_speeds(&it);
     const struct sums before = sums_of(&it);
-    cut_anywhere(&it, 500);
+    cut_anywhere(&it, 11, 500);
     const struct sums after = sums_of(&it);
     /* each point's mass is split in two with a rounding of 2^-53 of it, and a sum over
      * n points rounds n times */
@@ -69,7 +46,7 @@ static void every_point_keeps_one_fan(void **unused)
     (void)unused;
     struct inflated it;
     inflate(&it, &(struct inflation){.level = 3, .stretch = 1.5, .springs = true});
-    cut_anywhere(&it, 600);
+    cut_anywhere(&it, 11, 600);
     const struct sim_balloon *b = it.balloon;
     uint32_t corners = 0;
     for (uint32_t p = 0; p < b->point_end; p++) {
@@ -92,7 +69,7 @@ static void edges_follow_their_triangles(void **unused)
     (void)unused;
     struct inflated it;
     inflate(&it, &(struct inflation){.level = 3, .stretch = 1.5, .springs = true});
-    cut_anywhere(&it, 600);
+    cut_anywhere(&it, 11, 600);
     for (uint32_t t = 0; t < it.balloon->triangle_end; t++)
         for (int k = 0; k < 3; k++) {
             const uint32_t *p = it.sim.triangle_point[t], *e = it.sim.edge_point[it.sim.triangle_edge[t][k]];
@@ -106,7 +83,7 @@ static uint64_t hash_after_cuts(bool springs, unsigned workers)
 {
     struct inflated it;
     inflate(&it, &(struct inflation){.level = 4, .stretch = 1.5, .springs = springs, .workers = workers});
-    cut_anywhere(&it, 400);
+    cut_anywhere(&it, 11, 400);
     run_until(&it, 0.1);
     const uint64_t hash = sim_hash(&it.sim);
     deflate(&it);
@@ -120,6 +97,59 @@ static void any_number_of_workers_gives_the_same_bits(void **unused)
         const uint64_t alone = hash_after_cuts(springs, 1);
         assert_true(hash_after_cuts(springs, 2) == alone);
         assert_true(hash_after_cuts(springs, 5) == alone);
+    }
+}
+
+/* Of a piece that fell off the gas presses on no point, nor on any that further cuts make of it. */
+static void the_gas_lets_go_of_copies_too(void **unused)
+{
+    (void)unused;
+    struct inflated it;
+    inflate(&it, &(struct inflation){.level = 3, .stretch = 1.5});
+    gas_let_go(&it.sim, it.balloon, it.sim.triangle_point[0], 3 * it.balloon->triangle_end);
+    cut_anywhere(&it, 11, 400);
+    assert_true(it.balloon->topology->now.points > 50);
+    for (uint32_t p = 0; p < it.balloon->point_end; p++)
+        assert_false(it.balloon->gas->held[p]);
+    deflate(&it);
+}
+
+/* What a cut leaves of it is no more than a look at all points finds, but for rounding. */
+static void the_guards_bound_holds_through_cuts(void **unused)
+{
+    (void)unused;
+    for (int springs = 0; springs < 2; springs++) {
+        struct inflated it;
+        int lowered = 0;
+        inflate(&it, &(struct inflation){.level = 3, .stretch = 1.5, .springs = springs});
+        it.sim.step = 0; /* none that a cut could ask to be shorter */
+        for (uint64_t seed = 1; seed < 200; seed++) {
+            const double before = guard_stable_step(&it.sim);
+            cut_anywhere(&it, seed, 2);
+            const bool known = it.sim.guard->memory.is_known == GUARD_KNOWN;
+            const double by_cuts = it.sim.guard->memory.stable;
+            guard_outdated(&it.sim);
+            const double anew = guard_stable_step(&it.sim);
+            assert_true(!known || by_cuts <= (1 + 1e-12) * anew);
+            lowered += known && by_cuts < before;
+        }
+        assert_true(lowered >= 20);
+        deflate(&it);
+    }
+}
+
+/* Another look by the same x finds the same, to the bit. */
+static void the_guards_bound_is_that_of_its_x(void **unused)
+{
+    (void)unused;
+    for (int cuts = 0; cuts < 40; cuts++) {
+        struct inflated it;
+        inflate(&it, &(struct inflation){.level = 3, .stretch = 1.5, .springs = cuts % 2});
+        cut_anywhere(&it, 7, 5 * cuts);
+        const double bound = guard_stable_step(&it.sim);
+        it.sim.guard->memory.is_known = GUARD_KNOWN_BUT_FOR_CUTS;
+        assert_true(guard_stable_step(&it.sim) == bound);
+        deflate(&it);
     }
 }
 
@@ -141,7 +171,7 @@ static void a_state_that_is_no_skin_is_refused(void **unused)
     (void)unused;
     struct inflated it;
     inflate(&it, &(struct inflation){.level = 3, .stretch = 1.5, .springs = true});
-    cut_anywhere(&it, 50);
+    cut_anywhere(&it, 11, 50);
     assert_true(sim_restored(&it.sim));
     uint32_t *number = &it.balloon->topology->neighbour[100][1];
     const uint32_t was = *number;
@@ -162,6 +192,9 @@ int main(void)
         cmocka_unit_test(every_point_keeps_one_fan),
         cmocka_unit_test(edges_follow_their_triangles),
         cmocka_unit_test(any_number_of_workers_gives_the_same_bits),
+        cmocka_unit_test(the_gas_lets_go_of_copies_too),
+        cmocka_unit_test(the_guards_bound_holds_through_cuts),
+        cmocka_unit_test(the_guards_bound_is_that_of_its_x),
         cmocka_unit_test(a_full_reserve_is_told_and_cuts_nothing_more),
         cmocka_unit_test(a_state_that_is_no_skin_is_refused),
     };

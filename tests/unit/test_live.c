@@ -136,6 +136,18 @@ static void the_first_dial_turns_the_pump_where_there_is_gas(void **state)
 }
 
 /* Every kind of method: those that remember steps must remember the same ones again. */
+static void a_membrane_has_no_springs_to_be_turned(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_live(&b, SETTINGS("balloons[0].spring=20"), MEMORY);
+    assert_true(live_has_springs(&live));
+    close_live(&b);
+    open_live(&b, SETTINGS("balloons[0].membrane.thickness=0.45"), MEMORY);
+    assert_false(live_has_springs(&live));
+    close_live(&b);
+}
+
 static void a_frame_of_the_past_is_followed_by_the_same_future(void **state)
 {
     (void)state;
@@ -294,6 +306,31 @@ static void a_pull_moves_the_skin_towards_the_hand_until_it_lets_go(void **state
     }
 }
 
+static double strongest_finger(const char *const *changes)
+{
+    struct balloon b;
+    struct hand_hit hit;
+    open_live(&b, changes, MEMORY);
+    assert_true(hand_find(&b.sim, (const double[3]){1, 2, 500}, backwards, &hit));
+    hand_take(&live.hand, &b.sim, &hit);
+    double most = 0;
+    for (uint32_t f = 0; f < live.hand.count; f++)
+        most = fmax(most, live.hand.finger[f].stiffness);
+    close_live(&b);
+    return most;
+}
+
+static void a_hand_is_as_strong_as_the_skin(void **state)
+{
+    (void)state;
+    const double springs = strongest_finger(SETTINGS("balloons[0].spring=20"));
+    assert_true(springs > 0);
+    assert_near(strongest_finger(SETTINGS("balloons[0].spring=40")), 2 * springs, 1e-12 * springs);
+    assert_near(strongest_finger(SETTINGS("balloons[0].membrane.thickness=0.5",
+                                          "balloons[0].membrane.shear_modulus=80", "time.guard=substep")),
+                2 * springs, 1e-12 * springs); /* 80 x 0.5 = 40, whatever the springs' default */
+}
+
 /* Velocity Verlet's energy error is of second order: a quarter at half the step. */
 static void the_hands_work_is_accounted_for(void **state)
 {
@@ -346,6 +383,7 @@ int main(void)
         cmocka_unit_test(slow_motion_runs_at_the_films_pace),
         cmocka_unit_test(dials_turn_between_steps_within_the_scenes_range),
         cmocka_unit_test(the_first_dial_turns_the_pump_where_there_is_gas),
+        cmocka_unit_test(a_membrane_has_no_springs_to_be_turned),
         cmocka_unit_test(a_frame_of_the_past_is_followed_by_the_same_future),
         cmocka_unit_test(the_past_keeps_its_start_and_its_end_within_its_memory),
         cmocka_unit_test(the_past_is_a_minute_of_film),
@@ -354,6 +392,7 @@ int main(void)
         cmocka_unit_test(a_ray_finds_the_nearer_wall_or_none),
         cmocka_unit_test(a_prick_makes_a_hole_where_it_hits),
         cmocka_unit_test(a_pull_moves_the_skin_towards_the_hand_until_it_lets_go),
+        cmocka_unit_test(a_hand_is_as_strong_as_the_skin),
         cmocka_unit_test(the_hands_work_is_accounted_for),
         cmocka_unit_test(a_guarded_step_is_split_finer_while_the_hand_pulls),
     };

@@ -1,4 +1,4 @@
-/* Where the floor of a simulation's picture lies. */
+/* A simulation as a picture has it: its floor, its normals, what is there beside its balloons. */
 #include "balloon.h"
 #include "common/vec3.h"
 #include "sim/skins.h"
@@ -65,6 +65,52 @@ static void assert_line(const struct render_line *line, const double from[3], co
     }
 }
 
+/* Their triangles are as irregular as they come: all points were moved along the sphere by up to a third of
+ * an edge. Sums of the triangles' own normals would be off by some degrees, which kinks the edges of
+ * highlights. */
+static void points_of_a_sphere_have_its_normals(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct balloon b;
+    struct skins skins;
+    open_balloon(&b, 3, SETTINGS("balloons[0].radius=45"));
+    for (uint32_t p = 0; p < b.sim.point_count; p++) {
+        double *x = b.sim.position[p];
+        for (int i = 0; i < 3; i++)
+            x[i] += b.sim.balloons[0].mean_rest_length / 3 * sin(37.0 * p + 11 * i);
+        const double length = vec3_length(x);
+        for (int i = 0; i < 3; i++)
+            x[i] *= 45 / length;
+    }
+    assert_ok(skins_init(&skins, &b.sim, &err), &err);
+    skins_update(&skins);
+    for (uint32_t p = 0; p < b.sim.point_count; p++)
+        for (int i = 0; i < 3; i++) /* round-off of sums of a few terms that partly cancel */
+            assert_near(skins.normal[p][i], b.sim.position[p][i] / 45, 1e-12);
+    skins_clear(&skins);
+    close_balloon(&b);
+}
+
+static void a_point_without_triangles_has_no_normal(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct balloon b;
+    struct skins skins;
+    open_balloon(&b, 0, SETTINGS("balloons[0].radius=45"));
+    for (uint32_t t = 0; t < b.sim.triangle_count; t++)
+        for (int k = 0; k < 3; k++)
+            if (b.sim.triangle_point[t][k] == 0)
+                b.sim.triangle_active[t] = 0;
+    assert_ok(skins_init(&skins, &b.sim, &err), &err);
+    skins_update(&skins);
+    assert_near(vec3_length(skins.normal[0]), 0, 0);
+    assert_near(vec3_length(skins.normal[1]), 1, 1e-15);
+    skins_clear(&skins);
+    close_balloon(&b);
+}
+
 /* A string from the skin to its weight, a needle from its time on where it is then, a box's twelve edges. */
 static void what_is_there_beside_balloons_is_drawn_as_lines(void **state)
 {
@@ -105,6 +151,8 @@ int main(void)
         cmocka_unit_test(skin_stands_on_the_floor_while_it_swells),
         cmocka_unit_test(the_floor_does_not_follow_what_flies_away),
         cmocka_unit_test(level_ground_is_the_floor_and_a_slope_is_not),
+        cmocka_unit_test(points_of_a_sphere_have_its_normals),
+        cmocka_unit_test(a_point_without_triangles_has_no_normal),
         cmocka_unit_test(what_is_there_beside_balloons_is_drawn_as_lines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,39 @@
-/* Whether blocks that came from a file are a skin: every walk that topology.c takes ends, and
- * stays within the tables. */
-#include "sim/topology.h"
+/* What of a torn skin is state; and whether blocks that came from a file are a skin: every walk that
+ * topology.c takes ends, and stays within the tables. */
+#include "sim/membrane.h"
+#include "sim/reorder.h"
+
+#include <string.h>
+
+size_t topology_blocks(struct sim *sim, struct sim_balloon *b, struct sim_block *blocks)
+{
+    struct topology *top = b->topology;
+    const size_t triangles = b->triangle_end - b->triangle_begin, points = b->point_room - b->point_begin,
+                 edges = b->edge_room - b->edge_begin, new_edges = b->edge_room - top->old_edges;
+    const struct sim_block own[] = {
+        {"cuts", &top->now, sizeof top->now},
+        {"edge points", sim->edge_point + b->edge_begin, edges * sizeof *sim->edge_point},
+        {"triangle points", sim->triangle_point + b->triangle_begin, triangles * sizeof *sim->triangle_point},
+        {"triangle edges", sim->triangle_edge + b->triangle_begin, triangles * sizeof *sim->triangle_edge},
+        {"masses", sim->mass + b->point_begin, points * sizeof *sim->mass},
+        {"rest lengths", sim->rest_length + top->old_edges, new_edges * sizeof *sim->rest_length},
+        {"springs", sim->init_spring_const + b->edge_begin, edges * sizeof *sim->init_spring_const},
+        {"neighbours", top->neighbour, triangles * sizeof *top->neighbour},
+        {"rest", top->rest, points * sizeof *top->rest},
+        {"names", top->name, points * sizeof *top->name},
+        {"families", top->family, points * sizeof *top->family},
+        {"triangle at", top->triangle_at, points * sizeof *top->triangle_at},
+        {"rims", top->rim, top->rim_room * sizeof *top->rim},
+        {"late edges", top->tail->edge_in, top->tail->edge_in_room * sizeof(uint32_t)},
+        {"late triangles", top->tail->triangle_in, top->tail->triangle_in_room * sizeof(uint32_t)},
+    };
+    size_t count = sizeof own / sizeof own[0];
+    memcpy(blocks, own, sizeof own);
+    if (b->membrane)
+        blocks[count++] = (struct sim_block){"weights", b->membrane->edge_weight,
+                                             edges * sizeof *b->membrane->edge_weight};
+    return count;
+}
 
 static bool within(uint32_t number, uint32_t begin, uint32_t end)
 {
@@ -79,7 +112,7 @@ static bool lists_fit(const struct sim_balloon *b)
 bool topology_is_sound(const struct sim *sim, const struct sim_balloon *b)
 {
     const struct topology *top = b->topology;
-    if (!counts_fit(b))
+    if (!counts_fit(b) || !reorder_is_sound(b))
         return false;
     const uint32_t points = top->old_points + top->now.points, edges = top->old_edges + top->now.edges;
     bool sound = numbers_fit(sim, b, points, edges);
@@ -89,4 +122,20 @@ bool topology_is_sound(const struct sim *sim, const struct sim_balloon *b)
     for (uint32_t p = b->point_begin; sound && p < points; p++)
         sound = has_corner(sim, top->triangle_at[p - b->point_begin], p);
     return sound && lists_fit(b);
+}
+
+void topology_restored(struct sim *sim, struct sim_balloon *b)
+{
+    struct topology *top = b->topology;
+    b->point_end = top->old_points + top->now.points;
+    b->edge_end = top->old_edges + top->now.edges;
+    reorder_restored(sim, b);
+    top->tail->edge_in_count = top->now.late_edges;
+    top->tail->triangle_in_count = top->now.late_triangles;
+    for (uint32_t i = 0; i < top->now.late_edges; i++) {
+        top->late_edge[top->tail->edge_in[i] - b->edge_begin] = 1;
+        parts_loosen_edge(sim, b, top->tail->edge_in[i]);
+    }
+    for (uint32_t i = 0; i < top->now.late_triangles; i++)
+        topology_slow(sim, b, top->tail->triangle_in[i]);
 }
