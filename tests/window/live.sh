@@ -53,6 +53,9 @@ wait_title()
 
 pause() { press space; wait_title 'paused'; settle; }
 
+# steps COUNT: so many single steps while it is paused, however slow the machine is
+steps() { press $(yes period | head -n "$1"); }
+
 drag() # BUTTON X0 Y0 X1 Y1
 {
     pull "$@"

@@ -4,7 +4,7 @@
 
 began=$(date +%s%N)
 open_live
-sleep 1
+sleep 3
 pause
 passed=$((($(date +%s%N) - began) / 1000000))
 picture paused

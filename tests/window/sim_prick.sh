@@ -13,9 +13,7 @@ sleep 1
 pause
 click 400 300
 picture hole
-press space
-sleep 3
-pause
+steps 60
 picture torn
 quit
 log_has "no crack ran from where it was pricked" 'at(1, "torn_length") == 0 && at(-1, "torn_length") > 60'
