@@ -16,32 +16,6 @@ static inline row triangle_normal(const row *position, const uint32_t *p, bool u
     return twice_area;
 }
 
-/* Three times the mean speed of its points. */
-static inline row triangle_speed(const row *velocity, const uint32_t *p)
-{
-    return velocity[p[0]] + velocity[p[1]] + velocity[p[2]];
-}
-
-/* Four triangles that follow each other: N, twice their area vectors, as rows and turned, and 1/|N|, or 0;
- * and triangle_speed(), where velocities are given. */
-struct facets {
-    row twice_area[4], speed[4];
-    struct lanes3 turned;
-    lanes inverse;
-};
-
-static inline struct facets facets_of(const row *position, const row *velocity, const uint32_t (*point)[3])
-{
-    struct facets f;
-    for (int i = 0; i < 4; i++) {
-        f.twice_area[i] = triangle_normal(position, point[i], false);
-        f.speed[i] = velocity ? triangle_speed(velocity, point[i]) : (row){0};
-    }
-    f.turned = lanes_of_rows(f.twice_area);
-    f.inverse = inverses(lanes_sqrt(lanes_dot(f.turned, f.turned)));
-    return f;
-}
-
 /* The air's resistance (effect_drag.c), with what the normal has brought: (r C/12) (w . n) |w . n| N, n =
  * N/|N|, w the wind less the mean speed. */
 struct air {
@@ -57,17 +31,43 @@ static inline struct air air_of(const struct sim *sim)
     return (struct air){sim->rows.velocity, 3 * wind, drag->air_density * drag->coefficient / 108};
 }
 
+/* 3 w of a triangle. */
+static inline row air_passing(const struct air *air, const uint32_t *p)
+{
+    return air->wind - air->velocity[p[0]] - air->velocity[p[1]] - air->velocity[p[2]];
+}
+
+/* Four triangles that follow each other: N, twice their area vectors, as rows and turned, and 1/|N|, or 0;
+ * and 3 w, where there is air. */
+struct facets {
+    row twice_area[4], wind[4];
+    struct lanes3 turned;
+    lanes inverse;
+};
+
+INLINE struct facets facets_of(const row *position, const struct air *air, const uint32_t (*point)[3])
+{
+    struct facets f;
+    for (int i = 0; i < 4; i++) {
+        f.twice_area[i] = triangle_normal(position, point[i], false);
+        if (air)
+            f.wind[i] = air_passing(air, point[i]);
+    }
+    f.turned = lanes_of_rows(f.twice_area);
+    f.inverse = inverses(lanes_sqrt(lanes_dot(f.turned, f.turned)));
+    return f;
+}
+
 static inline row air_force(const struct air *air, const uint32_t *p, row n)
 {
-    const double across = dot(air->wind - triangle_speed(air->velocity, p), n) * inverse(length_of(n));
+    const double across = dot(air_passing(air, p), n) * inverse(length_of(n));
     return air->factor * (across * fabs(across)) * n;
 }
 
 /* The same for four triangles, each as for one alone, to the bit: what their N are multiplied by. */
 static inline lanes air_pushes(const struct air *air, const struct facets *f)
 {
-    const struct lanes3 u = lanes_of_rows(f->speed),
-                        w = {air->wind[0] - u.x, air->wind[1] - u.y, air->wind[2] - u.z};
+    const struct lanes3 w = lanes_of_rows(f->wind);
     const lanes across = lanes_dot(w, f->turned) * f->inverse;
     return air->factor * (across * lanes_size(across));
 }
@@ -121,8 +121,9 @@ INLINE void add_own_triangles(struct sim *sim, const struct sim_part *part, cons
             continue;
         }
         const uint32_t(*four)[3] = &point[t];
-        const struct facets f = facets_of(position, air ? air->velocity : NULL, four);
-        const lanes share = unit ? f.inverse : lanes_all(1), push = air ? air_pushes(air, &f) : lanes_all(0);
+        const struct facets f = facets_of(position, air, four);
+        const lanes share = unit ? f.inverse : lanes_all(1);
+        const lanes push = air ? air_pushes(air, &f) : lanes_all(0);
         for (int i = 0; i < 4; i++) {
             const struct corners at = {four[i][0], four[i][1], four[i][2]};
             add_to_all(normal, &at, lanes_spread(share, i) * f.twice_area[i]);
