@@ -27,7 +27,7 @@ enum effect_phase {
 
 /* Something that a scene can call for, beyond springs and pressure (effects.c). */
 struct effect {
-    const char *name; /* of the scene's block that calls for it */
+    const char *name; /* of the scene's block, or key, that calls for it */
     enum effect_phase phase;
     /* One of them: whether a balloon's block calls for it, which makes a hook a balloon; or the scene's,
      * which makes one hook whose balloon is the first. */

@@ -146,9 +146,9 @@ static void write_effect(const struct scene *scene, const struct effect *effect,
     if (effect->scene_wanted)
         fprintf(stream, on ? "the scene has the block" : "the scene has no such block");
     else if (on)
-        fprintf(stream, "%zu of %zu balloons have the block", wanted, scene->balloon_count);
+        fprintf(stream, "%zu of %zu balloons call for it", wanted, scene->balloon_count);
     else
-        fprintf(stream, "no balloon has the block");
+        fprintf(stream, "no balloon calls for it");
     if (on)
         fprintf(stream, " (%s)", effect->source);
     if (on)

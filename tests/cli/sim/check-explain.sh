@@ -5,14 +5,19 @@ stdout_has 'sphere.ply: 15[0-9]+ points, 4[0-9]+ edges, 30[0-9]+ triangles, mean
 stdout_has 'sphere.cfg: good: [0-9]+ bytes, 400 steps of symplectic-euler'
 no_file log.tsv
 expect 0 balloon-sim sphere.cfg --explain
-stdout_has '^off	rip	no balloon has the block$'
+stdout_has '^off	rip	no balloon calls for it$'
 expect 0 balloon-sim sphere.cfg --explain --set 'balloons[0].rip.at=1'
-stdout_has '^on	rip	1 of 1 balloons have the block \(paper 4.1\)	needs [^;]*; adds to a step: none$'
+stdout_has '^on	rip	1 of 1 balloons call for it \(paper 4.1\)	needs [^;]*; adds to a step: none$'
 stdout_has '^off	spring_by_height	'
 expect 0 balloon-sim sphere.cfg --explain --set 'balloons[0].pressure=0' --set 'balloons[0].gas.ambient=10' --set 'gravity.air_density=1.2'
-stdout_has '^on	gas	1 of 1 balloons have the block .*adds to a step: '
+stdout_has '^on	gas	1 of 1 balloons call for it .*adds to a step: '
 stdout_has '^on	gravity	the scene has the block '
 stdout_has '^off	drag	the scene has no such block$'
+
+# pressure_on is a key, not a block; a block in the mode of the paper calls for nothing
+expect 0 balloon-sim sphere.cfg --explain --set 'balloons[0].pressure_on=areas' --set 'balloons[0].fracture.mode=paper'
+stdout_has '^on	pressure_on	1 of 1 balloons call for it '
+stdout_has '^off	fracture	no balloon calls for it$'
 
 # whether it can burst by itself, and what would do: the paper's sphere settles at .4 of its pressure; toy balloons are pricked below their strength
 stays() { stdout_has '^off	burst	balloons\[0\]: .* is too low to burst it by itself; it takes about [0-9.e+]+ or more \(an estimate'; }
