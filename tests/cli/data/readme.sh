@@ -24,3 +24,10 @@ for page in README.md data/tutorial.md data/extending.md; do
     cat links files named >>found
 done
 [ "$(wc -l <found)" -gt 60 ] || fail "only $(wc -l <found) names were found"
+
+# Where the README sends its reader, the scenes that it names are.
+sed -n '/^`data\/scenes` has/,/^\*\*Go to/p' "$root/README.md" | grep -o '`[a-z]*`' | tr -d '`' >scenes
+[ "$(wc -l <scenes)" -gt 10 ] || fail "only $(wc -l <scenes) scenes were found"
+while read -r scene; do
+    [ -e "$PROGRAMS/data/$scene.cfg" ] || fail "there is no $PROGRAMS/data/$scene.cfg"
+done <scenes
