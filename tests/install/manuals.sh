@@ -12,6 +12,10 @@ for page in $pages; do
     for section in NAME SYNOPSIS DESCRIPTION FILES "EXIT STATUS" EXAMPLES "SEE ALSO"; do
         grep -qx "\.Sh $section" "$page" || fail "there is no section $section"
     done
+    awk '/^\.Dl [^#]/ { text = substr($0, 5) } /^\.Ed/ { shown = 0 } shown { text = $0 } /^\.Bd -literal/ { shown = 1 }
+        length(text) > 78 { print NR ": " text } { text = "" }' "$page" >.stdout
+    [ ! -s .stdout ] || fail "these lines are too long to be shown as they are, and copied"
+    ! grep -nE '^\.It .* \?' "$page" >.stdout || fail "a ? that sticks to what stands before it, where \\&? would not"
     for option in $(grep -vE '^-(help|usage|version|quiet|output)$' options); do
         sed -n '/^\.Sh SYNOPSIS/,/^\.Sh DESCRIPTION/p' "$page" | grep -q -- "Fl $option\b" || fail "SYNOPSIS lacks -$option"
     done
