@@ -2,6 +2,7 @@
  * so that its pressure brings it to the stretch at which it bursts if nowhere before that the skin holds more
  * than the pressure has given. */
 #include "common/scene_fields.h"
+#include "common/vec3.h"
 #include "sim/explain.h"
 #include "sim/fracture.h"
 #include "sim/ledger.h"
@@ -94,11 +95,29 @@ static double given(const struct sim *sim, const struct sim_balloon *b)
     return fmax(gas->fill, pumps ? largest(sim, b, "pump_until", gas->pump_until) : 0);
 }
 
+/* Whether it encloses much less than a ball of as much skin would, 36 pi V^2 < A^3: then it does not swell
+ * evenly, since the flatter a place is the more the same pressure stretches it. */
+static bool is_uneven(const struct sim *sim, const struct sim_balloon *b)
+{
+    static const double round_enough = 0.8;
+    double volume = 0, area = 0;
+    for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++) {
+        const uint32_t *p = sim->triangle_point[t];
+        double corner[3], normal[3]; /* twice the area long */
+        vec3_triangle(sim->position[p[0]], sim->position[p[1]], sim->position[p[2]], normal);
+        vec3_sub(sim->position[p[0]], b->centre, corner);
+        volume += vec3_dot(corner, normal) / 6;
+        area += vec3_length(normal) / 2;
+    }
+    return 36 * M_PI * volume * volume < round_enough * pow(area, 3);
+}
+
 void explain_bursts(struct sim *sim, FILE *stream)
 {
     for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++) {
         const char *what = b->gas ? "gas filling" : "pressure";
         double stretch = 1;
+        const bool uneven = is_uneven(sim, b);
         const double need = needed(sim, b, &stretch), most = given(sim, b);
         fprintf(stream, "%s\tburst\tballoons[%zu]: ", most >= need ? "on" : "off",
                 (size_t)(b - sim->balloons));
@@ -110,7 +129,7 @@ void explain_bursts(struct sim *sim, FILE *stream)
             fprintf(stream, "%s %g is too low to burst it by itself; it takes about %.3g or more", what, most,
                     need);
         if (!isinf(need))
-            fprintf(stream, " (an estimate: it swells evenly to a stretch of %.3g, and nothing is lost)\n",
-                    stretch);
+            fprintf(stream, " (an estimate: it swells evenly to a stretch of %.3g, and nothing is lost%s)\n",
+                    stretch, uneven ? "; this shape swells unevenly, and may tear long before" : "");
     }
 }

@@ -38,6 +38,14 @@ stdout_has 'evenly to a stretch of 2\.[23]'
 expect 0 balloon-sim overblown.cfg --explain
 stdout_has '^on	burst	balloons\[0\]: gas filling 30 may'
 
+# What is far from round swells unevenly: the fox's belly tears at a fifth of the filling that would do if it were stretched all alike.
+says_uneven='and nothing is lost; this shape swells unevenly, and may tear long before\)$'
+! grep -Eq "$says_uneven" .stdout || fail "a ball is said to swell unevenly"
+cp "$PROGRAMS/data/fox.ply" "$PROGRAMS/data/fox.cfg" .
+expect 0 balloon-sim fox.cfg --explain
+stays
+stdout_has "$says_uneven"
+
 # A law of rubber that takes more work is expected to.
 share() # LAW
 {
