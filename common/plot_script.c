@@ -75,23 +75,43 @@ static double bar_width(const struct plot_panel *panel)
     return 0.8 / (double)panel->series_count;
 }
 
-static void find_range(const struct plot_panel *panel, double *low, double *high)
+static void find_range(const struct plot_panel *panel, char axis, bool logarithmic, double *low, double *high)
 {
     *low = INFINITY;
     *high = -INFINITY;
     for (size_t i = 0; i < panel->series_count; i++)
-        for (size_t k = 0; k < panel->series[i].count; k++)
-            if (isfinite(panel->series[i].y[k])) {
-                *low = fmin(*low, panel->series[i].y[k]);
-                *high = fmax(*high, panel->series[i].y[k]);
+        for (size_t k = 0; k < panel->series[i].count; k++) {
+            const double value = (axis == 'x' ? panel->series[i].x : panel->series[i].y)[k];
+            if (drawable(value, logarithmic)) {
+                *low = fmin(*low, value);
+                *high = fmax(*high, value);
             }
+        }
+}
+
+/* What is drawn, with room for marks and labels, where gnuplot would end a logarithmic axis at the next
+ * powers of ten, and add a whole one for the room: but two powers are on it, so that it can be read. */
+static void put_log_range(FILE *script, const struct plot_panel *panel, char axis, double before,
+                          double after)
+{
+    double low, high;
+    find_range(panel, axis, true, &low, &high);
+    if (!(low <= high))
+        return;
+    const double length = fmax(log10(high / low), 0.5);
+    double from = log10(low) - before * length, to = log10(high) + after * length;
+    if (floor(to) - ceil(from) < 1) {
+        from = floor(from);
+        to = ceil(to);
+    }
+    fprintf(script, "set %crange [%.6g:%.6g]\n", axis, pow(10, from), pow(10, to));
 }
 
 static void put_range(FILE *script, const struct plot_panel *panel)
 {
     enum { WHOLE = 9 }; /* up to here gnuplot would mark halves too */
     double low, high;
-    find_range(panel, &low, &high);
+    find_range(panel, 'y', false, &low, &high);
     fputs(!panel->from_zero || low < 0 ? "set yrange [*:*]\n"
           : high > 0                   ? "set yrange [0:*]\n"
                                        : "set yrange [0:1]\n",
@@ -125,6 +145,14 @@ static void put_axes(FILE *script, const struct plot_panel *panel)
           : panel->key_outside ? "set key on outside right top nobox\n"
                                : "set key on inside right top box lc rgb '#d0d0d0' width 1\n",
           script);
+    if (!lines && !has_bars(panel)) {
+        if (panel->log_x)
+            put_log_range(script, panel, 'x', 0.08, 0.12);
+        if (panel->log_y)
+            put_log_range(script, panel, 'y', 0.06, named && !panel->key_outside ? 0.4 : 0.08);
+        if (panel->log_x && panel->log_y)
+            fputs("set offsets 0, 0, 0, 0\n", script);
+    }
     if (has_bars(panel))
         fprintf(script, "set style fill solid 0.85 noborder\nset boxwidth %g absolute\n", bar_width(panel));
     fputs(has_bars(panel) ? "set xtics rotate by -35 nomirror noenhanced\n"
@@ -134,14 +162,20 @@ static void put_axes(FILE *script, const struct plot_panel *panel)
 
 static void put_labels(FILE *script, size_t index, const char *which, const char *place, const char *colour)
 {
-    fprintf(script, ", $series%zu using 1:2:3%s with labels %s font ',9' noenhanced tc rgb '%s' notitle",
-            index, which, place, colour);
+    fprintf(script,
+            ", $series%zu using 1:2:3%s with labels %s boxed font ',9' noenhanced tc rgb '%s' notitle", index,
+            which, place, colour);
+}
+
+static const char *colour_of(const struct plot_series *series, size_t index)
+{
+    return colours[series->colour ? (size_t)series->colour - 1 : index % PLOT_COLOURS];
 }
 
 static void put_series(FILE *script, const struct plot_panel *panel, size_t index)
 {
     const struct plot_series *s = &panel->series[index];
-    const char *colour = colours[s->colour ? (size_t)s->colour - 1 : index % PLOT_COLOURS];
+    const char *colour = colour_of(s, index);
     const int number = s->mark ? s->mark - 1 : (int)index;
     const int mark = s->mark == PLOT_RING
                          ? 6
@@ -162,11 +196,18 @@ static void put_series(FILE *script, const struct plot_panel *panel, size_t inde
     fputs("title ", script);
     put_text(script, s->name);
     fputs(s->name ? " noenhanced" : "", script);
+}
+
+/* After all that is drawn, so that each lies over every line and can be read. */
+static void put_series_labels(FILE *script, const struct plot_panel *panel, size_t index)
+{
+    const struct plot_series *s = &panel->series[index];
     if (!s->label || s->style == PLOT_BARS)
         return;
-    put_labels(script, index, s->labels_below ? " every ::::0" : "", "left offset 0.8,0.5", colour);
+    put_labels(script, index, s->labels_below ? " every ::::0" : "", "left offset 0.8,0.5",
+               colour_of(s, index));
     if (s->labels_below)
-        put_labels(script, index, " every ::1", "right offset -0.8,-0.5", colour);
+        put_labels(script, index, " every ::1", "right offset -0.8,-0.5", colour_of(s, index));
 }
 
 static void put_panel(FILE *script, const struct plot_panel *panel)
@@ -183,6 +224,8 @@ static void put_panel(FILE *script, const struct plot_panel *panel)
         fputs(i ? ", " : "", script);
         put_series(script, panel, i);
     }
+    for (size_t i = 0; i < panel->series_count; i++)
+        put_series_labels(script, panel, i);
     fputc('\n', script);
 }
 
@@ -196,6 +239,7 @@ void plot_write_script(const struct plot *plot, bool svg, FILE *script)
             svg ? "background 'white'" : "");
     fputs("set border 3 lc rgb '#404040'\nset tics nomirror out tc rgb '#404040'\n"
           "set grid xtics ytics lc rgb '#e0e0e0' lw 1 lt 1\nset datafile missing 'NaN'\n"
+          "set style textbox opaque noborder fillcolor rgb '#50ffffff' margins 0.3,0.1\n"
           "set key top right samplen 2 spacing 1.2 opaque box lc rgb '#d0d0d0' width 1\n",
           script);
     fprintf(script, "set multiplot layout %zu,%zu", rows, plot->columns);

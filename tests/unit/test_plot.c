@@ -108,6 +108,32 @@ static void no_key_and_no_label_covers_what_is_drawn(void **state)
     assert_true(script_has(&panel, below));
 }
 
+/* Two powers of ten are on each, and no third that has nothing to show. */
+static void logarithmic_axes_end_near_what_is_drawn(void **state)
+{
+    (void)state;
+    const double error[] = {0.02, 0.03}, seconds[] = {0.002, 0.9};
+    const struct plot_series series[] = {
+        {.name = "a", .style = PLOT_CURVE, .x = error, .y = seconds, .label = label, .count = 2},
+        {.name = "b", .style = PLOT_CURVE, .x = error, .y = seconds, .count = 2}};
+    const struct plot_panel panel = {
+        .log_x = true, .log_y = true, .series = series, .series_count = 2, .key_outside = true};
+    char *script = NULL;
+    size_t size;
+    FILE *file = open_memstream(&script, &size);
+    plot_write_script(&(struct plot){.panels = &panel, .panel_count = 1, .columns = 1}, true, file);
+    fclose(file);
+    double low, high;
+    assert_int_equal(sscanf(strstr(script, "set xrange"), "set xrange [%lf:%lf]", &low, &high), 2);
+    assert_near(low, 0.01, 1e-12);
+    assert_near(high, 0.1, 1e-12);
+    assert_int_equal(sscanf(strstr(script, "set yrange [0"), "set yrange [%lf:%lf]", &low, &high), 2);
+    assert_true(low > 0.001 && low < 0.002 && high > 0.9 && high < 2);
+    /* a label lies over the lines of all curves */
+    assert_true(strstr(script, "with labels") > strstr(script, "$series1 using"));
+    free(script);
+}
+
 /* Saves by a script that stands in for gnuplot; NULL: without one. */
 static enum status save_by(const char *script, const char *path, struct error *err)
 {
@@ -176,6 +202,7 @@ int main(void)
         cmocka_unit_test(every_style_is_drawn_as_png_and_svg_whatever_the_points_and_texts),
         cmocka_unit_test(a_count_is_drawn_from_nothing_up_in_whole_steps),
         cmocka_unit_test(no_key_and_no_label_covers_what_is_drawn),
+        cmocka_unit_test(logarithmic_axes_end_near_what_is_drawn),
         cmocka_unit_test(without_gnuplot_the_message_says_how_to_get_it_and_the_old_file_stays),
         cmocka_unit_test(a_signal_while_gnuplot_draws_is_no_failure),
         cmocka_unit_test(other_extensions_are_refused),
