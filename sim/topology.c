@@ -308,13 +308,21 @@ static uint32_t double_edge(struct sim *sim, struct sim_balloon *b, uint32_t edg
     return copy;
 }
 
+/* Whether a list of what is late takes another cut: each comes in once, so that one for all does. */
+static bool has_room(uint32_t room, uint32_t count, uint32_t all)
+{
+    enum { FANS = 128 }; /* more triangles than two ends have */
+    return room >= all || room - count >= FANS;
+}
+
 bool topology_can_cut(struct sim *sim, struct sim_balloon *b)
 {
     struct topology *top = b->topology;
-    enum { FANS = 128 }; /* more triangles than two ends have */
+    const struct sim_part *tail = top->tail;
     const bool room = b->point_room - b->point_end >= 2 && b->edge_room - b->edge_end >= 1 &&
-                      top->tail->edge_in_room - top->tail->edge_in_count >= FANS &&
-                      top->tail->triangle_in_room - top->tail->triangle_in_count >= FANS;
+                      has_room(tail->edge_in_room, tail->edge_in_count, top->old_edges - b->edge_begin) &&
+                      has_room(tail->triangle_in_room, tail->triangle_in_count,
+                               b->triangle_end - b->triangle_begin);
     if (!room && top->now.refused++ == 0)
         sim_tell(sim, b, "fracture",
                  "has used up its reserve: cracks stop; give fracture.reserve more radii");

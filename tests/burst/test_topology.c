@@ -166,6 +166,19 @@ static void a_full_reserve_is_told_and_cuts_nothing_more(void **unused)
     deflate(&it);
 }
 
+/* What is late is so once: lists that have room for all have it for any cut. */
+static void a_skin_of_few_triangles_can_be_cut(void **unused)
+{
+    (void)unused;
+    struct inflated it;
+    inflate(&it, &(struct inflation){.stretch = 1.5, .springs = true});
+    cut_anywhere(&it, 11, 25);
+    const struct topology_counts *now = &it.balloon->topology->now;
+    assert_int_equal(now->refused, 0);
+    assert_true(now->late_edges <= 30 && now->late_triangles <= 20);
+    deflate(&it);
+}
+
 static void a_state_that_is_no_skin_is_refused(void **unused)
 {
     (void)unused;
@@ -196,6 +209,7 @@ int main(void)
         cmocka_unit_test(the_guards_bound_holds_through_cuts),
         cmocka_unit_test(the_guards_bound_is_that_of_its_x),
         cmocka_unit_test(a_full_reserve_is_told_and_cuts_nothing_more),
+        cmocka_unit_test(a_skin_of_few_triangles_can_be_cut),
         cmocka_unit_test(a_state_that_is_no_skin_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
