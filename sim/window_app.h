@@ -114,7 +114,6 @@ struct panel_box app_eye(const struct app *app);
 
 /* window_keys.c: a key was pressed (struct window_events). */
 void app_key(void *self, int key, int modifiers);
-extern const char app_help[];
 
 /* window_mouse.c: what the mouse did (struct window_events). */
 void app_moved(void *self, int x, int y, int modifiers);
@@ -151,6 +150,8 @@ struct panel_box app_time_slider(const struct app *app);
 bool app_has_plot(const struct app *app);
 struct panel_box app_plot(const struct app *app);
 struct panel_box app_legend(const struct app *app);
+/* How wide texts at the upper border may be: up to the legend, where it is shown. */
+int app_text_width(const struct app *app);
 
 /* The ranges of the plot's axes; false: there is nothing to plot. */
 bool app_plot_ranges(const struct app *app, double stretch[2], double pressure[2]);
@@ -158,6 +159,9 @@ bool app_plot_ranges(const struct app *app, double stretch[2], double pressure[2
 /* window_text.c: what there is to be read; it is good until the next call. */
 enum { WINDOW_TEXTS_MAX = 16 };
 size_t app_texts(struct app *app, struct render_text texts[WINDOW_TEXTS_MAX]);
+
+/* The keys are listed, and there is no room for anything beside them. */
+bool app_help_alone(const struct app *app);
 
 /* window_record.c: begins or ends a film; takes a picture where the film is due one; one PNG. */
 void app_record(struct app *app);

@@ -3,22 +3,6 @@
 
 #include <math.h>
 
-const char app_help[] = "left       prick, drag: pull     middle, alt+left  turn\n"
-                        "right      pan (shift+middle)    wheel      zoom\n"
-                        "\n"
-                        "space  pause, go on              .  one step\n"
-                        "up down  pressure, pump          [ ]  time step\n"
-                        "- +  spring constants            < >  speed of time\n"
-                        "left right  a frame back, on     page up, down  a second\n"
-                        "r  from the start\n"
-                        "\n"
-                        "home f  see all   1 3 7  front, right, top; ctrl: opposite\n"
-                        "v  stereo         w  wires       c  colours by stretch\n"
-                        "s  latex or the paper's look     o  order of layers\n"
-                        "tab  sliders and plot\n"
-                        "m  record a movie, end it        p  save a picture\n"
-                        "ctrl+q  quit                     F1 ?  this help";
-
 /* A key turns a dial by this part of its slider. Time is not turned finely, but to a tenth and back. */
 static const double key_part[LIVE_DIALS] = {
     [LIVE_PRESSURE] = 0.02, [LIVE_STEP] = 0.02, [LIVE_SPRINGS] = 0.02, [LIVE_PACE] = 0.1};

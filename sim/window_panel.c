@@ -24,6 +24,8 @@ enum {
     LEGEND_WIDTH = 14,
     LEGEND_NUMBER = 28, /* how wide its numbers are, with some room */
     LEGEND_HEIGHT = 120,
+    LEGEND_ROOM = LEGEND_WIDTH + LEGEND_NUMBER + 3 * MARGIN, /* with its number, from the right border */
+    STATE_HEIGHT = 64,                                       /* what the lines at the upper border take */
     BOXES_MAX = 8192,
 };
 
@@ -49,33 +51,58 @@ struct panel_box app_time_slider(const struct app *app)
     return (struct panel_box){left, app_eye(app).height - MARGIN - ROW, width > 1 ? width : 1, TRACK_HEIGHT};
 }
 
-/* Whether the plot has room beside the sliders. */
-static bool is_wide(const struct panel_box *eye)
+/* The upper border of a plot beside the sliders, */
+static int plot_top(const struct app *app)
 {
-    return eye->width >= 4 * MARGIN + NAME_WIDTH + TRACK_WIDTH + PLOT_WIDTH;
+    return app_eye(app).height - 2 * MARGIN - 2 * ROW - PLOT_HEIGHT;
 }
 
-/* Where it would cover the balloons it is left out. */
+/* which goes to the left of the legend where that reaches so far down. */
+static int plot_right(const struct app *app)
+{
+    const struct panel_box legend = app_legend(app);
+    const bool meets = app->stretch_colours && plot_top(app) < legend.y + legend.height + MARGIN;
+    return app_eye(app).width - (meets ? LEGEND_ROOM : MARGIN);
+}
+
+/* Whether the plot has room beside the sliders. */
+static bool is_wide(const struct app *app)
+{
+    return plot_right(app) >= 3 * MARGIN + NAME_WIDTH + TRACK_WIDTH + PLOT_WIDTH &&
+           plot_top(app) >= STATE_HEIGHT;
+}
+
+/* Where it would cover the balloons or what is written it is left out. */
 bool app_has_plot(const struct app *app)
 {
     enum { HIGH = 600 };
-    const struct panel_box eye = app_eye(app);
-    return is_wide(&eye) || eye.height >= HIGH;
+    return is_wide(app) || app_eye(app).height >= HIGH;
 }
 
 /* Beside the sliders, or above them where an eye's picture is too narrow. */
 struct panel_box app_plot(const struct app *app)
 {
-    const struct panel_box eye = app_eye(app);
-    const int left = eye.width - MARGIN - PLOT_WIDTH, bottom = eye.height - 2 * MARGIN - 2 * ROW;
-    return (struct panel_box){left, bottom - PLOT_HEIGHT - (is_wide(&eye) ? 0 : LIVE_DIALS * ROW), PLOT_WIDTH,
+    const bool beside = is_wide(app);
+    const int right = beside ? plot_right(app) : app_eye(app).width - MARGIN;
+    return (struct panel_box){right - PLOT_WIDTH, plot_top(app) - (beside ? 0 : LIVE_DIALS * ROW), PLOT_WIDTH,
                               PLOT_HEIGHT};
 }
 
+/* Shorter where it would stand on the sliders. */
 struct panel_box app_legend(const struct app *app)
 {
-    return (struct panel_box){app_eye(app).width - MARGIN - LEGEND_WIDTH, 2 * MARGIN + ROW, LEGEND_WIDTH,
-                              LEGEND_HEIGHT};
+    enum { SHORTEST = 30 }; /* three numbers */
+    const struct panel_box eye = app_eye(app);
+    const int top = 2 * MARGIN + ROW, room = app_slider(app, 0).y - ROW / 2 - 2 * MARGIN - top;
+    const bool meets = app->panel && eye.width - LEGEND_ROOM < NAME_WIDTH + TRACK_WIDTH + 3 * MARGIN;
+    const int height = meets && room < LEGEND_HEIGHT ? room : LEGEND_HEIGHT;
+    return (struct panel_box){eye.width - MARGIN - LEGEND_WIDTH, top, LEGEND_WIDTH,
+                              height > SHORTEST ? height : SHORTEST};
+}
+
+int app_text_width(const struct app *app)
+{
+    return app_eye(app).width - (app->stretch_colours ? LEGEND_ROOM : 0);
 }
 
 /* The ends of the pressure's or the pump's slider. */
@@ -124,7 +151,7 @@ static bool is_near(const struct panel_box *track, int x, int y)
 
 enum drag app_find_slider(const struct app *app, int x, int y, enum live_dial *dial)
 {
-    if (!app->panel)
+    if (!app->panel || app_help_alone(app))
         return DRAG_NOTHING;
     for (int i = 0; i < LIVE_DIALS; i++) {
         const struct panel_box track = app_slider(app, (enum live_dial)i);
@@ -278,6 +305,8 @@ bool app_make_boxes(struct app *app)
     app->boxes.count = 0;
     if (!ARRAY_RESERVE(&app->boxes, BOXES_MAX))
         return false;
+    if (app_help_alone(app))
+        return true;
     if (app->panel) {
         add_sliders(app);
         if (app_has_plot(app))

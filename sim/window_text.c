@@ -7,6 +7,22 @@
 
 enum { TEXT_SIZE = 1280, MARGIN = 8, LETTER_WIDTH = 6, LETTER_HEIGHT = 7 };
 
+static const char app_help[] = "left       prick, drag: pull     middle, alt+left  turn\n"
+                               "right      pan (shift+middle)    wheel      zoom\n"
+                               "\n"
+                               "space  pause, go on              .  one step\n"
+                               "up down  pressure, pump          [ ]  time step\n"
+                               "- +  spring constants            < >  speed of time\n"
+                               "left right  a frame back, on     page up, down  a second\n"
+                               "r  from the start\n"
+                               "\n"
+                               "home f  see all   1 3 7  front, right, top; ctrl: opposite\n"
+                               "v  stereo         w  wires       c  colours by stretch\n"
+                               "s  latex or the paper's look     o  order of layers\n"
+                               "tab  sliders and plot\n"
+                               "m  record a movie, end it        p  save a picture\n"
+                               "ctrl+q  quit                     F1 ?  this help";
+
 /* Measures are taken this often, and may take a twentieth of the time. */
 static const double measure_seconds = 0.1, measure_share = 0.05;
 
@@ -151,20 +167,44 @@ static void add_legend(const struct app *app, struct page *page)
     }
 }
 
+/* The list of keys below what else there is at the upper border. */
+static struct render_text help_at(int y)
+{
+    return (struct render_text){app_help, 3 * MARGIN, y, 1, {white[0], white[1], white[2]}, true};
+}
+
+bool app_help_alone(const struct app *app)
+{
+    enum { ABOVE = 11 * MARGIN }; /* what is written */
+    const struct render_text help = help_at(ABOVE);
+    const int bottom = !app->panel         ? app_eye(app).height
+                       : app_has_plot(app) ? app_plot(app).y
+                                           : app_slider(app, 0).y - MARGIN;
+    int width, height;
+    render_text_size(&help, &width, &height);
+    return app->hints.help && (help.y + height > bottom || help.x + width > app_text_width(app));
+}
+
 size_t app_texts(struct app *app, struct render_text texts[WINDOW_TEXTS_MAX])
 {
     static char storage[WINDOW_TEXTS_MAX][TEXT_SIZE];
     struct page page = {texts, storage, 0};
-    const int columns = (app_eye(app).width - 3 * MARGIN) / LETTER_WIDTH;
-    int height = 0, width;
+    const int columns = (app_text_width(app) - 3 * MARGIN) / LETTER_WIDTH;
+    int below = MARGIN, height, width;
+    if (app_help_alone(app)) {
+        texts[0] = help_at(MARGIN);
+        return 1;
+    }
     measure(app);
     describe_state(app, room(&page), TEXT_SIZE);
     wrap(room(&page), columns);
-    render_text_size(add(&page, MARGIN, MARGIN, 1, white, true), &width, &height);
+    render_text_size(add(&page, MARGIN, below, 1, white, true), &width, &height);
+    below += height + MARGIN;
     if (app->hints.message[0]) {
         snprintf(room(&page), TEXT_SIZE, "%s", app->hints.message);
         wrap(room(&page), columns);
-        add(&page, MARGIN, 2 * MARGIN + height, 1, warm, true);
+        render_text_size(add(&page, MARGIN, below, 1, warm, true), &width, &height);
+        below += height + MARGIN;
     }
     if (app->panel) {
         add_sliders(app, &page);
@@ -173,9 +213,7 @@ size_t app_texts(struct app *app, struct render_text texts[WINDOW_TEXTS_MAX])
     }
     if (app->stretch_colours)
         add_legend(app, &page);
-    if (app->hints.help) {
-        snprintf(room(&page), TEXT_SIZE, "%s", app_help);
-        add(&page, 3 * MARGIN, 9 * MARGIN, 1, white, true);
-    }
+    if (app->hints.help)
+        texts[page.count++] = help_at(below > 9 * MARGIN ? below : 9 * MARGIN);
     return page.count;
 }
