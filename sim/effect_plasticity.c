@@ -89,6 +89,8 @@ static void apply(struct sim *sim, struct sim_balloon *b)
     else
         sim_each_part(sim, slip_part, &slide);
     sim->changed |= slide.any;
+    if (slide.any && b->own_thresholds)
+        sim->edge_room = -INFINITY; /* thresholds go by rest lengths */
 }
 
 const struct effect effect_plasticity = {.name = "plasticity",

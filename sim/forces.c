@@ -118,38 +118,42 @@ static double sum_volume(const struct sim *sim, uint32_t begin, uint32_t end, co
     return (double)(sum[0] + sum[1] + sum[2]);
 }
 
-/* The same where each edge's threshold is its own rest length's. */
-static uint32_t count_overlong_of_their_own(const struct sim *sim, const struct sim_part *part, double limit)
+static double room_of(const struct sim *sim, const struct sim_balloon *balloon, uint32_t e)
 {
     const row *position = sim->rows.position;
-    const uint32_t(*point)[2] = (const uint32_t(*)[2])sim->edge_point;
-    const double *rest = sim->rest_length;
-    uint32_t count = 0;
-    for (uint32_t e = part->edge_begin; e < part->edge_end; e++) {
-        const row l = position[point[e][0]] - position[point[e][1]];
-        if (dot(l, l) > limit * (rest[e] * rest[e]))
-            count += sim->edge_active[e];
-    }
-    return count;
+    const uint32_t *p = sim->edge_point[e];
+    if (!sim->edge_active[e])
+        return INFINITY;
+    return (1 - 1e-9) * sim_threshold(sim, balloon, e) - length_of(position[p[0]] - position[p[1]]);
 }
 
 /* Part 2: "check if the length of the edge is greater than the threshold value". */
-static uint32_t count_overlong(const struct sim *sim, const struct sim_part *part)
+static double edge_room(const struct sim *sim, const struct sim_part *part)
 {
+    const struct sim_balloon *b = part->balloon;
     const row *position = sim->rows.position;
-    const uint32_t(*point)[2] = (const uint32_t(*)[2])sim->edge_point;
-    const unsigned char *active = sim->edge_active;
-    const double limit = (part->balloon->now->threshold_length * part->balloon->now->threshold_length);
+    const lanes threshold = lanes_all((1 - 1e-9) * b->now->threshold_length);
     const uint32_t end = part->edge_end;
-    uint32_t count = 0;
-    if (part->balloon->own_thresholds)
-        return count_overlong_of_their_own(sim, part, limit);
-    for (uint32_t e = part->edge_begin; e < end; e++) {
-        const row l = position[point[e][0]] - position[point[e][1]];
-        if (dot(l, l) > limit)
-            count += active[e];
+    lanes least = lanes_all(INFINITY);
+    double room = INFINITY;
+    uint32_t e = part->edge_begin;
+    for (; end - e >= 4; e += 4) {
+        if (!four_are_set(&sim->edge_active[e])) {
+            for (uint32_t i = 0; i < 4; i++)
+                room = fmin(room, room_of(sim, b, e + i));
+            continue;
+        }
+        row l[4];
+        for (uint32_t i = 0; i < 4; i++)
+            l[i] = position[sim->edge_point[e + i][0]] - position[sim->edge_point[e + i][1]];
+        const lanes most = b->own_thresholds ? threshold * lanes_at(&sim->rest_length[e]) : threshold;
+        least = lanes_min(least, most - lengths_of(l));
     }
-    return count;
+    for (; e < end; e++)
+        room = fmin(room, room_of(sim, b, e));
+    for (int i = 0; i < 4; i++)
+        room = fmin(room, least[i]);
+    return room;
 }
 
 /* Four points at a time: one after the other, each would wait for the one before it. */
@@ -174,6 +178,6 @@ static void box_ways(const struct sim *sim, uint32_t begin, uint32_t end, double
 }
 
 extern const struct sim_kernels SIM_KERNELS;
-const struct sim_kernels SIM_KERNELS = {clear_points,    coming_forces,  edge_forces,    triangle_normals,
-                                        pressure_forces, count_overlong, triangle_areas, push_areas,
-                                        sum_volume,      arm_forces,     slip_edges,     box_ways};
+const struct sim_kernels SIM_KERNELS = {clear_points,    coming_forces, edge_forces,    triangle_normals,
+                                        pressure_forces, edge_room,     triangle_areas, push_areas,
+                                        sum_volume,      arm_forces,    slip_edges,     box_ways};

@@ -19,8 +19,9 @@ struct sim_kernels {
      * which it adds to forces. */
     void (*triangle_normals)(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk);
     void (*pressure_forces)(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk);
-    /* How many of the active edges that begin in this part are longer than the threshold. */
-    uint32_t (*count_overlong)(const struct sim *sim, const struct sim_part *part);
+    /* The least by which an active edge that begins in this part is shorter than its threshold, less a
+     * billionth of that, which is for rounding in many steps to come; INFINITY where there is none. */
+    double (*edge_room)(const struct sim *sim, const struct sim_part *part);
     /* Where pressure acts on areas (areas.h): sums of twice the area vectors in place of the normals,
      * and what goes by them. */
     void (*triangle_areas)(struct sim *sim, const struct sim_part *part, const struct sim_chunk *chunk);

@@ -3,6 +3,7 @@
 #include "common/threads.h"
 #include "sim/sweep.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -222,12 +223,13 @@ enum status parts_open(struct sim *sim, struct error *err)
     const unsigned workers = threads_workers(sim->pool);
     const struct sim_balloon *end = sim->balloons + sim->balloon_count;
     sim->part_count = 0;
+    sim->edge_room = -INFINITY;
     for (const struct sim_balloon *b = sim->balloons; b < end; b++)
         sim->part_count += workers + has_room(b);
     sim->parts = sim_table(sim, sim->part_count, sizeof *sim->parts);
-    sim->overlong = array_new(sim->part_count, sizeof *sim->overlong);
+    sim->edge_rooms = array_new(sim->part_count, sizeof *sim->edge_rooms);
     sim->seen = sim_table(sim, sim->part_count, sizeof *sim->seen);
-    bool good = sim->parts && sim->overlong && sim->seen;
+    bool good = sim->parts && sim->edge_rooms && sim->seen;
     struct sim_part *part = sim->parts;
     for (struct sim_balloon *b = sim->balloons; b < end && good; b++) {
         for (unsigned i = 0; i < workers + has_room(b); i++)
@@ -246,7 +248,7 @@ void parts_close(struct sim *sim)
         free(sim->parts[i].chunks);
     }
     free(sim->parts);
-    free(sim->overlong);
+    free(sim->edge_rooms);
     free(sim->seen);
     threads_close(sim->pool);
 }

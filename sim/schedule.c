@@ -3,6 +3,7 @@
 #include "sim/guard.h"
 #include "sim/ledger.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Springs that are stretched hold more, or less, from one moment to the next: the user's work. */
@@ -46,6 +47,7 @@ static void change_step(struct sim *sim, double value)
 void sim_change(struct sim *sim, const struct scene_schedule *entry)
 {
     sim->changed = true;
+    sim->edge_room = -INFINITY;
     guard_outdated(sim);
     for (size_t i = 0; i < entry->change_count; i++) {
         const char *key = entry->change[i].field->key;

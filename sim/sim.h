@@ -176,7 +176,8 @@ struct sim {
     struct threads *pool;   /* NULL: the caller alone */
     struct sim_part *parts; /* [part_count] of each balloon one a worker */
     size_t part_count;
-    uint32_t *overlong;    /* [part_count] edges past the threshold, by the last break_edges() */
+    double *edge_rooms; /* [part_count] by how much edges may grow before one lets go, by the last look, */
+    double edge_room;   /*    and the least of them, less what points have moved since; below 0: not known */
     struct sim_seen *seen; /* [part_count] by the last sweep (sweep.h), */
     bool swept;            /*    with which this step ended, and nothing has moved a point since, */
     bool pushed;           /*    or contact has, and shown each such point to it */

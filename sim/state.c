@@ -81,6 +81,7 @@ const struct sim_block *sim_blocks(struct sim *sim, size_t *number)
 
 bool sim_restored(struct sim *sim)
 {
+    sim->edge_room = -INFINITY;
     if (sim->integrator->is_sound && !sim->integrator->is_sound(sim))
         return false;
     for (struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)

@@ -98,22 +98,32 @@ void sim_forces_then(struct sim *sim, struct sim_move *move)
     sim->swept = true;
 }
 
-static void count_overlong(struct sim *sim, const struct sim_part *part, void *context)
+static void find_room(struct sim *sim, const struct sim_part *part, void *context)
 {
     (void)context;
     const bool tears = part->balloon->fracture; /* its skin gives way in another manner */
-    sim->overlong[part - sim->parts] = tears ? 0 : sim->kernels->count_overlong(sim, part);
+    sim->edge_rooms[part - sim->parts] = tears ? INFINITY : sim->kernels->edge_room(sim, part);
+}
+
+/* An edge grows by no more than its two ends move, so that most steps need no look. The margin is for
+ * rounding. */
+static bool are_short(struct sim *sim)
+{
+    sim->edge_room -= (2 + 1e-9) * sweep_saw_farthest(sim);
+    return sim->edge_room > 0 || sweep_saw_none_overlong(sim);
 }
 
 /* Part 2: edges longer than the threshold let go. Most steps have none. */
 static void break_edges(struct sim *sim)
 {
-    if (sweep_saw_none_overlong(sim))
+    if (are_short(sim))
         return;
-    sim_each_part(sim, count_overlong, NULL);
+    sim_each_part(sim, find_room, NULL);
+    sim->edge_room = INFINITY;
     for (size_t i = 0; i < sim->part_count; i++) {
         const struct sim_part *part = &sim->parts[i];
-        for (uint32_t e = part->edge_begin; e < part->edge_end && sim->overlong[i]; e++)
+        sim->edge_room = fmin(sim->edge_room, sim->edge_rooms[i]);
+        for (uint32_t e = part->edge_begin; e < part->edge_end && sim->edge_rooms[i] <= 0; e++)
             if (sim->edge_active[e] && sim_edge_length(sim, e) > sim_threshold(sim, part->balloon, e))
                 sim_break_edge(sim, e);
     }
