@@ -61,6 +61,14 @@ if command -v gnuplot >/dev/null; then
     stderr_has 'gnuplot failed, no map: '
 fi
 
+# The map's axes have the keys' units.
+printf '#!/bin/sh\ncp script "%s/script"; : >map.png\n' "$PWD" >bin/gnuplot
+chmod +x bin/gnuplot
+expect 0 sweep "$@"
+rm bin/gnuplot
+grep -qxF "set xlabel 'balloons[0].spring, force/length' noenhanced" script && grep -qxF "set ylabel 'time.step, s' noenhanced" script ||
+    fail "the axes: $(grep label script)"
+
 # diverged is a result
 expect 0 sweep "$scene" --out diverged time.step=0.02:0.3:2 --set 'balloons[0].threshold=1e9'
 stdout_has '^2 of 2 points are there, 1 of them diverged: '
