@@ -109,12 +109,13 @@ static void put_log_range(FILE *script, const struct plot_panel *panel, char axi
 
 static void put_range(FILE *script, const struct plot_panel *panel)
 {
-    enum { WHOLE = 9 }; /* up to here gnuplot would mark halves too */
+    enum { WHOLE = 9 };                   /* up to here gnuplot would mark halves too */
+    static const double round_off = 1e-9; /* of the highest: no lower than 0 */
     double low, high;
     find_range(panel, 'y', false, &low, &high);
-    fputs(!panel->from_zero || low < 0 ? "set yrange [*:*]\n"
-          : high > 0                   ? "set yrange [0:*]\n"
-                                       : "set yrange [0:1]\n",
+    fputs(!panel->from_zero || low < -round_off * fabs(high) ? "set yrange [*:*]\n"
+          : high > 0                                         ? "set yrange [0:*]\n"
+                                                             : "set yrange [0:1]\n",
           script);
     fputs(panel->whole && high < WHOLE ? "set ytics 1\n" : "set ytics autofreq\n", script);
 }

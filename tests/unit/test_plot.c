@@ -87,6 +87,18 @@ static bool script_has(const struct plot_panel *panel, const char *words)
     return found;
 }
 
+/* An energy of -1e-12 at rest is none: no axis goes down to -20000 for it. */
+static void round_off_below_nothing_is_nothing(void **state)
+{
+    (void)state;
+    double energy[] = {-1e-12, 1e5};
+    const struct plot_series series = {.style = PLOT_LINE, .x = x, .y = energy, .count = 2};
+    const struct plot_panel panel = {.from_zero = true, .series = &series, .series_count = 1};
+    assert_true(script_has(&panel, "set yrange [0:*]"));
+    energy[0] = -1;
+    assert_false(script_has(&panel, "set yrange [0:*]"));
+}
+
 /* A key inside takes the upper right corner, where lines end that rise. */
 static void no_key_and_no_label_covers_what_is_drawn(void **state)
 {
@@ -202,6 +214,7 @@ int main(void)
         cmocka_unit_test(every_style_is_drawn_as_png_and_svg_whatever_the_points_and_texts),
         cmocka_unit_test(a_count_is_drawn_from_nothing_up_in_whole_steps),
         cmocka_unit_test(no_key_and_no_label_covers_what_is_drawn),
+        cmocka_unit_test(round_off_below_nothing_is_nothing),
         cmocka_unit_test(logarithmic_axes_end_near_what_is_drawn),
         cmocka_unit_test(without_gnuplot_the_message_says_how_to_get_it_and_the_old_file_stays),
         cmocka_unit_test(a_signal_while_gnuplot_draws_is_no_failure),
