@@ -109,16 +109,19 @@ INLINE struct folds folds_of(const struct hinge_work *w, const size_t hinge[4], 
                               lanes_dot(a, b) * lanes_sqrt(inverse) * sine};
     const lanes high1 = packed_high((lanes)n1[3]), high2 = packed_high((lanes)n2[3]),
                 low = packed_low((lanes)n1[3]) + packed_low((lanes)n2[3]);
+    const lane_mask both = lanes_min(high1, high2) > 0;
     if (damped)
-        f.pull -= slowed(w, hinge, (lane_mask)(lanes_min(high1, high2) > 0), cosine, sine, inverse);
-    f.slope = (low - square * (high1 + high2) - 8 * inverse) * of_four(w->at_rest, hinge);
+        f.pull -= slowed(w, hinge, both, cosine, sine, inverse);
+    f.slope = lanes_select(both, (low - square * (high1 + high2) - 8 * inverse) * of_four(w->at_rest, hinge),
+                           lanes_all(0));
     if (w->crushed)
         f.doubtful = (lanes_min(high1, high2) == 0) |
                      (lanes_max(high1, high2) > 0.999 * of_four(w->shrink, hinge));
     return f;
 }
 
-/* Those of the hinges from `first` on that are not there, or crushed, pull at nothing. */
+/* Those of the hinges from `first` on that are not there, or crushed, pull at nothing, and what only fills up
+ * the four of them is none: the guard must not go by it, which is another one for each number of parts. */
 static __attribute__((noinline)) void leave_out(const struct hinge_work *w, const struct bending_view *v,
                                                 uint32_t first, size_t count, struct folds *f)
 {
@@ -131,6 +134,8 @@ static __attribute__((noinline)) void leave_out(const struct hinge_work *w, cons
         if (w->crushed)
             w->crushed[first + i] = crushed;
     }
+    for (size_t i = count; i < 4; i++)
+        f->slope[i] = 0;
 }
 
 /* Returns the slopes. */

@@ -32,6 +32,59 @@ static void torn_hinges_are_equal_for_any_number_of_threads(void **state)
     close_balloon(&b);
 }
 
+/* Corner 0 of a triangle goes most of the `way` to the side across. */
+static void squash(struct sim *sim, uint32_t triangle, double way)
+{
+    const uint32_t *p = sim->triangle_point[triangle];
+    for (int i = 0; i < 3; i++)
+        sim->position[p[0]][i] += way * ((sim->position[p[1]][i] + sim->position[p[2]][i]) / 2 -
+                                         sim->position[p[0]][i]);
+}
+
+static void set_neighbours(struct sim *sim, uint32_t triangle, unsigned char active)
+{
+    for (uint32_t t = 0; t < sim->triangle_count; t++)
+        for (int k = 0; k < 9 && t != triangle; k++)
+            if (sim->triangle_edge[t][k / 3] == sim->triangle_edge[triangle][k % 3])
+                sim->triangle_active[t] = active;
+}
+
+/* What watch() gives to the guard, with one triangle squashed. */
+static double steepest(struct sim *sim, uint32_t triangle, double way, bool alone)
+{
+    const uint32_t corner = sim->triangle_point[triangle][0];
+    double kept[3], most = 0;
+    memcpy(kept, sim->position[corner], sizeof kept);
+    squash(sim, triangle, way);
+    set_neighbours(sim, triangle, !alone);
+    sim_forces(sim);
+    for (size_t i = 0; i < sim->part_count; i++)
+        most = fmax(most, sim->balloons->bending->range[i]);
+    set_neighbours(sim, triangle, 1);
+    memcpy(sim->position[corner], kept, sizeof kept);
+    return most;
+}
+
+/* Crushed, or with neighbours that are gone and edges that are not: wherever a part ends. */
+static void the_guard_goes_by_the_same_slopes_for_any_number_of_threads(void **state)
+{
+    (void)state;
+    static const unsigned workers[] = {2, 3, 7};
+    for (size_t w = 0; w < sizeof workers / sizeof workers[0]; w++) {
+        struct error err = {0};
+        struct balloon b;
+        struct sim sim;
+        open_balloon(&b, 1, HINGES());
+        assert_ok(sim_open(&sim, &b.scene, &b.mesh, workers[w], &err), &err);
+        for (uint32_t t = 0; t < sim.triangle_count; t++) {
+            assert_true(steepest(&sim, t, 0.95, false) == steepest(&b.sim, t, 0.95, false));
+            assert_true(steepest(&sim, t, 0.6, true) == steepest(&b.sim, t, 0.6, true));
+        }
+        sim_clear(&sim);
+        close_balloon(&b);
+    }
+}
+
 /* The step's normals are added up on the way through the triangles that hinges need too: the same to the bit,
  * in whole fours and in others. */
 static void normals_are_what_they_are_without_hinges(void **state)
@@ -82,6 +135,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(torn_hinges_are_equal_for_any_number_of_threads),
+        cmocka_unit_test(the_guard_goes_by_the_same_slopes_for_any_number_of_threads),
         cmocka_unit_test(normals_are_what_they_are_without_hinges),
         cmocka_unit_test(all_sets_of_instructions_give_the_same_bits),
     };
