@@ -111,6 +111,8 @@ static void bound(const struct sim *sim, const struct sim_balloon *b, const stru
 
 static double edge_energy(const struct sim *sim, const struct sim_balloon *b, uint32_t e)
 {
+    if (e - b->edge_begin >= b->arm_count)
+        return 0;
     const struct arm arm = arm_of(sim, b, e);
     return arm.constant * arm.elongation * arm.elongation / 2;
 }

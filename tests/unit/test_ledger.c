@@ -66,6 +66,24 @@ static void what_a_breaking_edge_held_is_counted_exactly(void **state)
     close_balloon(&b);
 }
 
+/* A ratio of 0 leaves no arms, whatever is in the numbers that come after the springs'. */
+static void an_edge_without_an_arm_held_nothing_in_it(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 2, SETTINGS("balloons[0].pressure=4", "balloons[0].viscosity.ratio=0"));
+    open_books(&b);
+    steps(&b, 10);
+    double held = 0;
+    b.sim.scalar[0] = INFINITY;
+    for (uint32_t e = 0; e < b.sim.edge_count; e++) {
+        held += sim_spring_energy(&b.sim, e);
+        sim_break_edge(&b.sim, e);
+    }
+    assert_near(b.sim.ledger.account.fracture, held, 1e-16 * b.sim.edge_count * held);
+    close_balloon(&b);
+}
+
 static void a_scheduled_change_of_springs_is_the_users_work(void **state)
 {
     (void)state;
@@ -199,6 +217,7 @@ int main(void)
         cmocka_unit_test(its_error_falls_with_the_integrators_order),
         cmocka_unit_test(at_rest_all_accounts_stay_at_zero),
         cmocka_unit_test(what_a_breaking_edge_held_is_counted_exactly),
+        cmocka_unit_test(an_edge_without_an_arm_held_nothing_in_it),
         cmocka_unit_test(a_scheduled_change_of_springs_is_the_users_work),
         cmocka_unit_test(it_balances_through_a_burst),
         cmocka_unit_test(a_look_inside_a_step_finds_the_accounts_as_they_were),
