@@ -25,17 +25,29 @@ static const char help[] = "left       tool              middle, alt+left  turn\
                            "e  cell edges     l  light by side or by shape     v  stereo\n"
                            "p  balloon        i  inflate it              F1 ?  this help";
 
+/* While it is shown no tool works. */
+static void describe_balloon(const struct app *app, char *text, size_t size)
+{
+    const bool inflated = app->balloon.inflated;
+    snprintf(text, size, "the balloon%s   p  back to the sculpture   i  %s   F1 help%s%s",
+             inflated ? ", blown up" : "", inflated ? "back to rest" : "inflate it", app->written ? "  " : "",
+             app->written ? app->written : "");
+}
+
 static void describe_tool(const struct app *app, char *text, size_t size)
 {
     const struct session *s = &app->session;
+    const bool either = s->tool != TOOL_SANDPAPER && s->tool != TOOL_HEAT; /* these only take away */
     char mirror[16] = "";
     for (int axis = 0; axis < 3; axis++)
         if (s->mirror >> axis & 1)
             strncat(mirror, (const char *[]){"x", "y", "z"}[axis], 2);
-    snprintf(text, size, "%s%s%s  brush %.3g cells  depth %+.1f%s%s%s  F1 help%s%s",
-             s->fill ? "fill " : "chip ", session_tool_names[s->tool], app->preview ? " (balloon)" : "",
-             s->radius * (1 << s->tree.depth), s->depth, s->snap ? "  grid" : "", *mirror ? "  mirror " : "",
-             mirror, app->written ? "  " : "", app->written ? app->written : "");
+    snprintf(text, size, "%s%s  brush %.3g cells  depth %+.1f%s%s%s  F1 help%s%s",
+             either && s->fill ? "fill "
+             : either          ? "chip "
+                               : "",
+             session_tool_names[s->tool], s->radius * (1 << s->tree.depth), s->depth, s->snap ? "  grid" : "",
+             *mirror ? "  mirror " : "", mirror, app->written ? "  " : "", app->written ? app->written : "");
 }
 
 static void describe_question(const struct app *app, char *text, size_t size)
@@ -120,7 +132,7 @@ size_t app_texts(const struct app *app, struct render_text texts[WINDOW_TEXTS_MA
     int size[2];
     orbit_eye_size(&app->view, size);
     if (app->open && size[1] >= ROOM_FOR_TOOL) {
-        describe_tool(app, storage[count], TEXT_SIZE);
+        (app->preview ? describe_balloon : describe_tool)(app, storage[count], TEXT_SIZE);
         add_text(app, texts, &count, storage[count], MARGIN, -MARGIN, white);
     }
     if (app->hints.message[0]) {
