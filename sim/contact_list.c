@@ -373,7 +373,7 @@ enum status contact_list_follow_moved(struct sim *sim, struct error *err)
     for (uint32_t i = 0; i < c->moved_count; i++) {
         const uint32_t p = c->moved[i];
         const double square = stray_of(&w, p, sim->position);
-        sweep_see_pushed(sim, p);
+        sweep_see_pushed(sim, 0, p);
         c->off[p] = fmaxf(c->off[p], root_above(square));
         follow_path(c, p, sim->position[p]);
         c->stray = fmax(c->stray, sqrt(square));

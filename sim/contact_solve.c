@@ -146,9 +146,10 @@ static enum status keep_apart(struct sim *sim, struct error *err)
     memset(c->held, 0, sim->point_count);
     pins_mark(sim, c->held);
     bool hits = contact_look(sim);
-    sim->pushed = hits && sweep_sees_pushes(sim);
-    if (hits)
+    if (hits) {
+        sim->pushed = sweep_sees_pushes(sim);
         ledger_note(sim);
+    }
     for (int round = 0; hits && round < ROUNDS_MAX && !status; round++) {
         sim->changed = true;
         push_all(sim);

@@ -230,8 +230,12 @@ static void settle_part(struct sim *sim, const struct sim_part *part, void *cont
         double box[2][4];
         sim->kernels->box_ways(sim, begin, end, box);
         const bool near = !(least_gap(obstacles, box) > 0);
-        for (uint32_t p = begin; p < end && near; p++)
-            found.touched += obstacles_turn(obstacles, sim->before[p], sim->position[p], sim->velocity[p]);
+        for (uint32_t p = begin; p < end && near; p++) {
+            if (!obstacles_turn(obstacles, sim->before[p], sim->position[p], sim->velocity[p]))
+                continue;
+            sweep_see_pushed(sim, (size_t)(part - sim->parts), p);
+            found.touched++;
+        }
         add_box(found.box, box);
         begin = end;
     }
@@ -257,11 +261,13 @@ bool obstacles_settle(struct sim *sim)
         obstacles->room -= moved;
         return false;
     }
+    const bool told = sweep_sees_pushes(sim);
     uint32_t touched = 0;
     ledger_note(sim);
     sim_each_part(sim, settle_part, obstacles);
     for (size_t i = 0; i < sim->part_count; i++)
         touched += obstacles->found[i].touched;
+    sim->pushed = touched > 0 && told;
     obstacles->room = touched > 0 ? 0 : INFINITY;
     for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
         obstacles->room = fmin(obstacles->room, find_room(sim, b));

@@ -180,7 +180,7 @@ struct sim {
     double edge_room;   /*    and the least of them, less what points have moved since; below 0: not known */
     struct sim_seen *seen; /* [part_count] by the last sweep (sweep.h), */
     bool swept;            /*    with which this step ended, and nothing has moved a point since, */
-    bool pushed;           /*    or contact has, and shown each such point to it */
+    bool pushed;           /*    or obstacles and contact have, and shown each such point to it */
     const struct sim_kernels *kernels;
     struct {
         void *position, *velocity, *force, *normal; /* [point_count] what the kernels work on */

@@ -36,13 +36,14 @@ void sweep_part(struct sim *sim, const struct sim_part *part, void *move)
 
 bool sweep_sees_pushes(const struct sim *sim)
 {
-    return sim->swept && !sim->changed && sim->integrator->flags & INTEGRATOR_ONE_SWEEP;
+    return sim->swept && (!sim->changed || sim->pushed) && sim->integrator->flags & INTEGRATOR_ONE_SWEEP;
 }
 
-void sweep_see_pushed(struct sim *sim, uint32_t point)
+void sweep_see_pushed(struct sim *sim, size_t part, uint32_t point)
 {
+    struct sim_seen *seen = &sim->seen[part];
     const row way = ((const row *)sim->position)[point] - ((const row *)sim->before)[point];
-    sim->seen->moved = fmax(sim->seen->moved, way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+    seen->moved = fmax(seen->moved, way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
 }
 
 static double farthest(const struct sim *sim)

@@ -54,10 +54,11 @@ void sweep_chunk(struct sim *sim, const struct sim_part *part, const struct sim_
 void sweep_border(struct sim *sim, const struct sim_part *part, void *move);
 void sweep_part(struct sim *sim, const struct sim_part *part, void *move);
 
-/* Whether the sweep can be told of points that contact pushes on their way from sim->before; tells it of one,
- * which is where it is now. Contact only takes energy. */
+/* Whether the sweep can be told of points that obstacles or contact push on their way from sim->before; tells
+ * it of one, which is where it is now: each worker with the number of a part of its own. They only take
+ * energy. */
 bool sweep_sees_pushes(const struct sim *sim);
-void sweep_see_pushed(struct sim *sim, uint32_t point);
+void sweep_see_pushed(struct sim *sim, size_t part, uint32_t point);
 
 /* Where this step ended with a sweep and nothing has moved a point since that it was not told of: whether no
  * edge can be longer than it may be, and the kinetic energy to round-off, or what it was before the pushes;

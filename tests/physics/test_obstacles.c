@@ -4,6 +4,7 @@
 #include "common/random.h"
 #include "common/vec3.h"
 #include "sim/obstacles.h"
+#include "sim/sweep.h"
 
 static const struct obstacle
     ball = {.kind = OBSTACLE_SPHERE, .place = {1, 2, 3}, .radius = 2, .friction = 0.3},
@@ -260,6 +261,30 @@ static void test_bad_surroundings_are_refused_with_a_reason(void **state)
     scene_clear(&scene);
 }
 
+/* The sweep is told of every turn (sweep.h), so that a balloon that lies on the ground needs no look at all
+ * edges, nor at all speeds. */
+static void test_no_turn_takes_a_point_further_than_the_sweep_knows(void **state)
+{
+    (void)state;
+    struct balloon b;
+    int told = 0;
+    open_balloon(&b, 3,
+                 SETTINGS("balloons[0].pressure=0", "gravity.acceleration=[0,-100,0]", "ground.height=-50",
+                          "obstacles[0].shape=sphere", "obstacles[0].place=[20,-60,0]",
+                          "obstacles[0].radius=12", "ground.friction=0.5"));
+    for (int i = 0; i < 100; i++) {
+        double farthest = 0;
+        steps(&b, 1);
+        for (uint32_t p = 0; p < b.sim.point_count; p++)
+            farthest = fmax(farthest, vec3_distance(b.sim.position[p], b.sim.before[p]));
+        assert_true(farthest <= (1 + 1e-12) * sweep_saw_farthest(&b.sim));
+        if (b.sim.pushed)
+            told += sweep_saw_none_overlong(&b.sim) && sweep_saw_energy(&b.sim) < INFINITY;
+    }
+    assert_true(told > 10);
+    close_balloon(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -270,6 +295,7 @@ int main(void)
         cmocka_unit_test(test_a_balloon_at_100_radii_a_second_enters_nothing),
         cmocka_unit_test(test_far_ground_changes_no_bit),
         cmocka_unit_test(test_what_is_far_is_met_as_if_each_step_had_looked),
+        cmocka_unit_test(test_no_turn_takes_a_point_further_than_the_sweep_knows),
         cmocka_unit_test(test_a_gap_is_no_wider_than_it_is),
         cmocka_unit_test(test_a_needle_tears_the_skin_where_and_when_it_arrives),
         cmocka_unit_test(test_a_needle_slits_a_membrane_where_it_meets_it),
