@@ -11,8 +11,6 @@
 #include "common/vec3.h"
 #include "sim/fracture.h"
 
-enum { FAN_MAX = 64 };
-
 struct ring {
     struct fan fan[FAN_MAX];
     struct membrane_state state[FAN_MAX];
@@ -20,9 +18,8 @@ struct ring {
     bool closed; /* the point is not on a rim */
 };
 
-/* false: it has more triangles than room. */
-bool crack_take_ring(const struct sim *sim, const struct sim_balloon *balloon, uint32_t point,
-                     struct ring *ring);
+/* false, which is told: it has more than FAN_MAX triangles. */
+bool crack_take_ring(struct sim *sim, const struct sim_balloon *balloon, uint32_t point, struct ring *ring);
 
 /* The point at a spoke's far end; the mean nominal stress across it, over the shear modulus. */
 uint32_t crack_spoke_end(const struct sim *sim, const struct ring *ring, int spoke);

@@ -4,15 +4,25 @@
 
 #include <math.h>
 
-bool crack_take_ring(const struct sim *sim, const struct sim_balloon *b, uint32_t point, struct ring *ring)
+static void tell_fan(struct sim *sim, const struct sim_balloon *b)
+{
+    if (!b->fracture->told_fan)
+        sim_tell(sim, b, "fracture",
+                 "a crack has come to a point where more than 64 triangles meet: it goes no further there");
+    b->fracture->told_fan = true;
+}
+
+bool crack_take_ring(struct sim *sim, const struct sim_balloon *b, uint32_t point, struct ring *ring)
 {
     struct fan fan;
     ring->closed = topology_first(sim, b, point, &fan);
     const uint32_t first = fan.triangle;
     ring->count = 0;
     do {
-        if (ring->count == FAN_MAX)
+        if (ring->count == FAN_MAX) {
+            tell_fan(sim, b);
             return false;
+        }
         ring->fan[ring->count++] = fan;
     } while (topology_next(sim, b, &fan) && fan.triangle != first);
     for (int i = 0; i < ring->count; i++)
@@ -62,8 +72,9 @@ double crack_spoke_stress(const struct sim *sim, const struct ring *ring, uint32
     return (stress_across(&ring->state[before], d) + stress_across(&ring->state[spoke % ring->count], d)) / 2;
 }
 
-/* How many triangles a cut between two rims would leave to either side at its far end, at least. */
-static int far_side(const struct sim *sim, const struct sim_balloon *b, uint32_t end, uint32_t triangle)
+/* How many triangles a cut between two rims would leave to either side at its far end, at least; 0 where
+ * there are too many to be cut apart. */
+static int far_side(struct sim *sim, const struct sim_balloon *b, uint32_t end, uint32_t triangle)
 {
     struct fan fan;
     if (topology_first(sim, b, end, &fan))
@@ -76,6 +87,10 @@ static int far_side(const struct sim *sim, const struct sim_balloon *b, uint32_t
         else
             before++;
         passed |= fan.triangle == triangle;
+    }
+    if (before + after > FAN_MAX) {
+        tell_fan(sim, b);
+        return 0;
     }
     return before < after ? before : after;
 }

@@ -248,13 +248,17 @@ static double fan_weight(const struct sim *sim, const struct sim_balloon *b, str
 /* The edges around a point of a rim. */
 static void tell_guard(struct sim *sim, struct sim_balloon *b, uint32_t point, uint32_t like)
 {
-    uint32_t edges[64], count = 0;
+    uint32_t edges[FAN_MAX + 1], count = 0;
     struct fan fan;
     topology_first(sim, b, point, &fan);
     edges[count++] = sim->triangle_edge[fan.triangle][fan.corner];
-    do
+    do {
+        if (count > FAN_MAX) { /* a crack ends here: all is looked at anew */
+            guard_bound_outdated(sim);
+            return;
+        }
         edges[count++] = sim->triangle_edge[fan.triangle][(fan.corner + 2) % 3];
-    while (count < 64 && topology_next(sim, b, &fan));
+    } while (topology_next(sim, b, &fan));
     guard_cut(sim, b, point, like, edges, count);
 }
 
@@ -311,7 +315,7 @@ static uint32_t double_edge(struct sim *sim, struct sim_balloon *b, uint32_t edg
 /* Whether a list of what is late takes another cut: each comes in once, so that one for all does. */
 static bool has_room(uint32_t room, uint32_t count, uint32_t all)
 {
-    enum { FANS = 128 }; /* more triangles than two ends have */
+    enum { FANS = 2 * FAN_MAX }; /* more triangles than two ends have */
     return room >= all || room - count >= FANS;
 }
 

@@ -29,6 +29,9 @@
 /* About as many triangles as a chunk has (parts.h), but alike for any number of workers. */
 enum { TOPOLOGY_STRETCH = 4096 };
 
+/* Triangles around a point, at the most, where a cut goes through it. */
+enum { FAN_MAX = 64 };
+
 /* A balloon's connections. Arrays are owned; [triangles], [points] and [edges] are of the balloon's
  * triangles, points with room and edges with room, from its first on. */
 struct topology {
@@ -98,8 +101,8 @@ bool topology_next(const struct sim *sim, const struct sim_balloon *balloon, str
 /* Whether there is room for another cut; counts one as refused if not. */
 bool topology_can_cut(struct sim *sim, struct sim_balloon *balloon);
 
-/* Cuts the edge across `side` of a triangle, which must not be a rim. Does not allocate; takes the time of
- * the two ends' triangles. */
+/* Cuts the edge across `side` of a triangle, which must not be a rim, and whose ends have no more than
+ * FAN_MAX triangles where they lie on one. Does not allocate; takes the time of the two ends' triangles. */
 void topology_cut(struct sim *sim, struct sim_balloon *balloon, uint32_t triangle, int side);
 
 #endif
