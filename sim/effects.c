@@ -208,7 +208,7 @@ enum status effects_check(struct sim *sim, struct error *err)
 
 void sim_tell(struct sim *sim, const struct sim_balloon *balloon, const char *effect, const char *text)
 {
-    if (sim->news_count < SIM_NEWS_MAX)
+    if (sim->news_count < SIM_NEWS_EACH * sim->balloon_count)
         sim->news[sim->news_count++] = (struct sim_news){sim->time, effect, text,
                                                          (size_t)(balloon - sim->balloons)};
 }

@@ -39,6 +39,7 @@ void sim_clear(struct sim *sim)
                       sim->triangle_active,
                       sim->balloons,
                       sim->settings,
+                      sim->news,
                       sim->scalar,
                       sim->scalar_rate,
                       sim->block_sum};
@@ -98,6 +99,7 @@ static enum status allocate(struct sim *sim, struct error *err)
     sim->triangle_active = table(sim, triangles, sizeof *sim->triangle_active, &failed);
     sim->balloons = table(sim, sim->balloon_count, sizeof *sim->balloons, &failed);
     sim->settings = table(sim, sim->balloon_count, sizeof *sim->settings, &failed);
+    sim->news = table(sim, SIM_NEWS_EACH * sim->balloon_count, sizeof *sim->news, &failed);
     for (int i = 0; i < sim->integrator->vectors; i++)
         sim->scratch[i] = table(sim, points, sizeof *sim->scratch[i], &failed);
     sim->block_sum = table(sim, points / VECTOR_BLOCK + 1, sizeof *sim->block_sum, &failed);

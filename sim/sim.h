@@ -107,7 +107,7 @@ struct sim_news {
     const char *effect, *text; /* "gas", "the neck is open" */
     size_t balloon;
 };
-enum { SIM_NEWS_MAX = 16 };
+enum { SIM_NEWS_EACH = 16 }; /* of a balloon, mostly */
 
 /* The energy's accounts (ledger.h). */
 struct sim_ledger {
@@ -239,7 +239,8 @@ struct sim {
 
     struct sim_ledger ledger;
 
-    struct sim_news news[SIM_NEWS_MAX]; /* [news_count] since somebody set it to 0; later ones are lost */
+    /* [news_count] since somebody set it to 0; later ones than SIM_NEWS_EACH x balloon_count are lost. */
+    struct sim_news *news;
     size_t news_count;
 
     uint32_t *piece;          /* [edge_count] for sim_measure(): an edge of the same piece */

@@ -36,3 +36,16 @@ stderr_has 'needles\[0\] met no skin: at the end it is at .0, 0, 95., [45][0-9.]
 stderr_has 'needles\[1\] comes at 3 s only$'
 expect 0 balloon-sim -q needle.cfg --hash
 [ ! -s .stderr ] || fail "--quiet says something"
+
+# What twenty balloons tell in one step is said of each.
+ply m.ply "$tetra_points" "$tetra_triangles"
+{
+    echo 'time = { end = 0.2; }; balloons = ('
+    for i in $(seq 0 19); do
+        [ "$i" = 0 ] || echo ,
+        echo "{ mesh = \"m.ply\"; position = [$((200 * i)).0, 0.0, 0.0]; pins = { until = 0.1; }; }"
+    done
+    echo ');'
+} >many.cfg
+expect 0 balloon-sim many.cfg --log many.tsv
+[ "$(grep -c ': pins: let go' .stderr)" = 20 ] || fail "not all balloons have their say"
