@@ -42,7 +42,7 @@ static enum status find_tolerant(struct accuracy_plan *plan, const struct pair *
                 accuracy_close(&run);
                 return STATUS_OK;
             }
-            if (status != STATUS_RANGE && status != STATUS_RESOURCE)
+            if (status != STATUS_RANGE && status != STATUS_RESOURCE && status != STATUS_DIVERGED)
                 return status;
         }
     return status;

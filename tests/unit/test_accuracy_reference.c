@@ -1,0 +1,53 @@
+/* What accuracy costs is told although a reference fails at the tightest tolerances: accuracy_go() is stood
+ * in for. */
+#include "balloon.h"
+#include "sim/accuracy.h"
+#include "sim/accuracy_run.h"
+#include "support/slowdown.h"
+
+static int failures; /* that are still to come, of runs at a tolerance below 1e-10 */
+
+enum status __wrap_accuracy_go(struct accuracy_run *run, const struct accuracy_subject *subject,
+                               const struct accuracy_dials *dials, double budget,
+                               struct accuracy_states *states, struct error *err);
+enum status __real_accuracy_go(struct accuracy_run *run, const struct accuracy_subject *subject,
+                               const struct accuracy_dials *dials, double budget,
+                               struct accuracy_states *states, struct error *err);
+
+/* As CVODE's corrector where contact's forces have corners. */
+enum status __wrap_accuracy_go(struct accuracy_run *run, const struct accuracy_subject *subject,
+                               const struct accuracy_dials *dials, double budget,
+                               struct accuracy_states *states, struct error *err)
+{
+    if (failures > 0 && dials->tolerance < 1e-10) {
+        failures--;
+        return error_set(err, STATUS_DIVERGED, "the corrector convergence test failed");
+    }
+    return __real_accuracy_go(run, subject, dials, budget, states, err);
+}
+
+static void a_looser_tolerance_is_tried_where_a_reference_diverges(void **state)
+{
+    (void)state;
+    static struct accuracy_table table;
+    struct error err = {0};
+    struct balloon b;
+    open_balloon(&b, 1,
+                 SETTINGS("balloons[0].point_mass=1", "balloons[0].pressure=4", "balloons[0].threshold=100",
+                          "time.end=0.2", "time.guard=off"));
+    failures = 2;
+    assert_ok(accuracy_measure(&b.scene, &b.mesh, &(struct accuracy_options){.seconds = 1 * slowdown()},
+                               &table, &err),
+              &err);
+    assert_int_equal(failures, 0);
+    assert_non_null(strstr(table.reference[0], "time.tolerance=1e-10"));
+    close_balloon(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_looser_tolerance_is_tried_where_a_reference_diverges),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
