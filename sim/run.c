@@ -8,6 +8,7 @@
 #include "sim/interrupt.h"
 #include "sim/ledger.h"
 #include "sim/nearest_break.h"
+#include "sim/news.h"
 #include "sim/outputs.h"
 #include "sim/piece_table.h"
 
@@ -55,16 +56,6 @@ static void note_method(struct run *run)
             command_note("%s", text);
         run->said.parts = sim->substeps;
     }
-}
-
-/* What effects tell: that they wake, or go to sleep. */
-static void note_news(struct sim *sim)
-{
-    for (size_t i = 0; i < sim->news_count; i++) {
-        const struct sim_news *news = &sim->news[i];
-        command_note("at %.4g s: balloons[%zu]: %s: %s", news->time, news->balloon, news->effect, news->text);
-    }
-    sim->news_count = 0;
 }
 
 static enum status keep(struct run *run, struct error *err)
@@ -117,7 +108,7 @@ static enum status step(struct run *run, struct error *err)
     struct sim *sim = run->sim;
     enum status status = sim_step(sim, err);
     note_method(run);
-    note_news(sim);
+    news_note(sim);
     if (sim->broken && run->first_break < 0)
         run->first_break = sim->time;
     return status ? status : show(run, err);

@@ -4,6 +4,7 @@
 #include "common/vec3.h"
 #include "sim/interrupt.h"
 #include "sim/ledger.h"
+#include "sim/news.h"
 #include "sim/window_app.h"
 
 #include <math.h>
@@ -81,6 +82,7 @@ void app_step(struct app *app)
     app->live.paused = true;
     app->stale = true;
     say_unless_ok(app, live_step(&app->live, &err), &err);
+    news_note(app->live.sim);
     app_record_frame(app);
     app_pause(app, true);
 }
@@ -161,6 +163,7 @@ static void run(void *self)
         status = ask_estimate(app, &err);
     if (app->live.sim->steps != steps)
         app->stale = true;
+    news_note(app->live.sim);
     say_unless_ok(app, status, &err);
 }
 

@@ -16,6 +16,7 @@ picture hole
 steps 60
 picture torn
 quit
+grep -q 's: balloons\[0\]: gas: streams out of a tear$' said || fail "what the gas tells is not said"
 log_has "no crack ran from where it was pricked" 'at(1, "torn_length") == 0 && at(-1, "torn_length") > 60'
 until=$(tail -n 1 live.tsv | cut -f 1)
 balloon-sim ball.cfg $rubber --log untouched.tsv --set "time.end=$until" -q >/dev/null
