@@ -3,6 +3,7 @@
 #include "common/vec3.h"
 #include "sim/ccd.h"
 #include "sim/effects.h"
+#include "sim/lanes.h"
 #include "sim/sweep.h"
 
 #include <math.h>
@@ -20,9 +21,10 @@ struct needles {
     struct search *search; /* [part_count] owned */
 };
 
-/* A needle's way over the last step. */
+/* A needle's way over the last step, and the box around it. */
 struct prick {
     double from[3], to[3];
+    lanes low, high;
 };
 
 /* Where the skin is met first. */
@@ -35,17 +37,16 @@ struct hole {
  * must come nearer to meet. */
 static double apart(const struct sim *sim, const uint32_t *p, const struct prick *prick)
 {
-    double most = -INFINITY;
-    for (int i = 0; i < 3; i++) {
-        double low = INFINITY, high = -INFINITY;
-        for (int k = 0; k < 3; k++) {
-            low = fmin(low, fmin(sim->before[p[k]][i], sim->position[p[k]][i]));
-            high = fmax(high, fmax(sim->before[p[k]][i], sim->position[p[k]][i]));
-        }
-        most = fmax(
-            most, fmax(low - fmax(prick->from[i], prick->to[i]), fmin(prick->from[i], prick->to[i]) - high));
+    const row *before = (const row *)sim->before, *now = sim->rows.position;
+    lanes low = (lanes)before[p[0]], high = low;
+    for (int k = 0; k < 3; k++) {
+        const lanes first = (lanes)before[p[k]], last = (lanes)now[p[k]];
+        low = lanes_min(lanes_min(first, last), low);
+        high = lanes_max(lanes_max(first, last), high);
     }
-    return most;
+    const lanes beside = lanes_max(low - prick->high, prick->low - high);
+    const double most = beside[0] > beside[1] ? beside[0] : beside[1];
+    return beside[2] > most ? beside[2] : most;
 }
 
 /* When the needle comes to the triangle; INFINITY: it does not. */
@@ -85,7 +86,7 @@ static void search_part(struct sim *sim, const struct sim_part *part, void *cont
         if (!sim->triangle_active[t])
             continue;
         const double beside = apart(sim, sim->triangle_point[t], job->prick) - gap;
-        found.room = fmin(found.room, beside);
+        found.room = beside < found.room ? beside : found.room;
         const double time = beside > 0 ? INFINITY : meeting(sim, t, job->prick, gap);
         if (time < found.first.time)
             found.first = (struct hole){time, t};
@@ -118,6 +119,10 @@ static struct prick prick_of(const struct sim *sim, const struct scene_needles *
     struct prick prick;
     needle_at(needle, fmax(sim->time - sim->taken, needle->at), prick.from);
     needle_at(needle, fmax(sim->time, needle->at), prick.to);
+    const lanes from = {prick.from[0], prick.from[1], prick.from[2]},
+                to = {prick.to[0], prick.to[1], prick.to[2]};
+    prick.low = lanes_min(from, to);
+    prick.high = lanes_max(from, to);
     return prick;
 }
 
