@@ -14,6 +14,7 @@
  * the steps since then, bit by bit.
  */
 #include "sim/cvode_solver.h"
+#include "sim/ledger.h"
 #include "sim/methods.h"
 #include "sim/vectors.h"
 #include "sim/weights.h"
@@ -216,7 +217,7 @@ static void record(struct sim *sim)
         if (CVodeGetDky(cvode->memory, cvode->time - sim->taken * (1 - node[k]) / 2, 0, cvode->inside))
             continue;
         load(sim, cvode->inside);
-        sim_forces(sim);
+        ledger_forces(sim);
         for (uint32_t i = cvode->scalars; i < sim->scalar_count; i++)
             sim->scalar[i] += weight[k] * sim->taken * sim->scalar_rate[i];
     }

@@ -49,6 +49,8 @@ struct effect {
     void (*after)(struct sim *sim, struct sim_balloon *balloon);
     /* What it remembers from step to step beyond sim->scalar, as blocks; returns how many. NULL: nothing. */
     size_t (*blocks)(struct sim *sim, struct sim_balloon *balloon, struct sim_block *blocks);
+    /* EFFECT_FORCES: what apply leaves for `after` to go by, as blocks; returns how many. NULL: nothing. */
+    size_t (*left)(struct sim *sim, struct sim_balloon *balloon, struct sim_block *blocks);
     /* Points of a balloon get other numbers (reorder.h): what it keeps by them follows. NULL: nothing. */
     void (*reorder)(struct sim *sim, struct sim_balloon *balloon, const struct reorder *reorder);
     /* After a step, whether it can go on: STATUS_DIVERGED with the reason. NULL: always. */
@@ -98,10 +100,12 @@ enum status effects_settle(struct sim *sim, struct error *err); /* EFFECT_MOVED 
 size_t effects_begin_forces(struct sim *sim);
 void effects_finish_forces(struct sim *sim, const struct sim_part *part, size_t first);
 
-/* Of all effects together (struct effect): whether all can go on, their blocks, the energy that they hold,
- * their powers, which are added, and what goes with an edge or a triangle. */
+/* Of all effects together (struct effect): whether all can go on, their blocks, what forces have left (no more
+ * than EFFECT_BLOCKS_MAX a hook), the energy that they hold, their powers, which are added, and what goes
+ * with an edge or a triangle. */
 enum status effects_check(struct sim *sim, struct error *err);
 size_t effects_blocks(struct sim *sim, struct sim_block *blocks);
+size_t effects_left(struct sim *sim, struct sim_block *blocks);
 double effects_energy(struct sim *sim);
 void effects_power(struct sim *sim, double *dissipated, double *work);
 double effects_edge_energy(const struct sim *sim, uint32_t edge);

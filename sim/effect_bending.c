@@ -337,6 +337,15 @@ static size_t blocks(struct sim *sim, struct sim_balloon *b, struct sim_block *b
     return 1;
 }
 
+static size_t left(struct sim *sim, struct sim_balloon *b, struct sim_block *blocks)
+{
+    const struct bending *h = b->bending;
+    if (!h)
+        return 0;
+    blocks[0] = (struct sim_block){"hinges' range", h->range, sim->part_count * sizeof *h->range};
+    return 1;
+}
+
 static struct bending_sums sums_of(const struct sim *sim, const struct sim_balloon *b)
 {
     if (!b->bending)
@@ -377,6 +386,7 @@ const struct effect effect_bending = {.name = "bending",
                                       .apply = apply,
                                       .finish = finish,
                                       .after = watch,
+                                      .left = left,
                                       .blocks = blocks,
                                       .product = product,
                                       .bound = bound,

@@ -83,6 +83,17 @@ static size_t blocks(struct sim *sim, struct sim_balloon *b, struct sim_block *l
     return 2;
 }
 
+static size_t left(struct sim *sim, struct sim_balloon *b, struct sim_block *list)
+{
+    (void)sim;
+    struct gas *gas = b->gas;
+    list[0] = (struct sim_block){"holes", &gas->holes, sizeof gas->holes};
+    list[1] = (struct sim_block){"volume", &gas->volume, sizeof gas->volume};
+    list[2] = (struct sim_block){"pressure", &gas->pressure, sizeof gas->pressure};
+    list[3] = (struct sim_block){"tube held", &gas->tube_held, sizeof gas->tube_held};
+    return 4;
+}
+
 static void reorder(struct sim *sim, struct sim_balloon *b, const struct reorder *how)
 {
     (void)sim;
@@ -297,6 +308,7 @@ const struct effect effect_gas = {.name = "gas",
                                   .close = close,
                                   .apply = apply,
                                   .after = after,
+                                  .left = left,
                                   .blocks = blocks,
                                   .reorder = reorder,
                                   .product = gas_product,

@@ -210,6 +210,13 @@ static void watch(struct sim *sim, struct sim_balloon *b)
     guard_bound_outdated(sim);
 }
 
+static size_t left(struct sim *sim, struct sim_balloon *b, struct sim_block *blocks)
+{
+    const struct membrane *m = b->membrane;
+    blocks[0] = (struct sim_block){"membrane's range", m->range, sim->part_count * sizeof *m->range};
+    return 1;
+}
+
 static void power(struct sim *sim, struct sim_balloon *b, double *dissipated, double *work)
 {
     (void)work;
@@ -222,6 +229,7 @@ const struct effect effect_membrane = {.name = "membrane",
                                        .open = open,
                                        .close = close,
                                        .after = watch,
+                                       .left = left,
                                        .power = power,
                                        .triangle_energy = membrane_triangle_energy,
                                        .product = product,

@@ -227,6 +227,17 @@ size_t effects_blocks(struct sim *sim, struct sim_block *blocks)
     return count;
 }
 
+size_t effects_left(struct sim *sim, struct sim_block *blocks)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < sim->hook_count[EFFECT_FORCES]; i++) {
+        const struct effect_hook *hook = &sim->hooks[EFFECT_FORCES][i];
+        if (hook->effect->left)
+            count += hook->effect->left(sim, hook->balloon, &blocks[count]);
+    }
+    return count;
+}
+
 double effects_energy(struct sim *sim)
 {
     double energy = 0;

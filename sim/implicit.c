@@ -1,6 +1,7 @@
 #include "sim/implicit.h"
 #include "sim/guard.h"
 #include "sim/jacobian.h"
+#include "sim/ledger.h"
 #include "sim/reorder.h"
 #include "sim/vectors.h"
 
@@ -83,13 +84,11 @@ static void place_points(struct sim *sim, double c)
                    (struct vector_term[]){{c, sim->velocity}}, 1);
 }
 
-/* Forces at the present guess, and scalars by their rates there; returns the largest change
- * of one against its size. */
-static double evaluate(struct sim *sim, double c)
+/* Scalars by their rates; returns the largest change of one against its size. */
+static double follow_scalars(struct sim *sim, double c)
 {
     const double *base = sim->scalar_scratch[IMPLICIT_BASE_VELOCITY];
     double change = 0;
-    sim_forces(sim);
     for (uint32_t i = 0; i < sim->scalar_count; i++) {
         const double scalar = base[i] + c * sim->scalar_rate[i];
         if (i < sim_state_scalars(sim)) /* what only records must not decide when the iteration ends */
@@ -97,6 +96,23 @@ static double evaluate(struct sim *sim, double c)
         sim->scalar[i] = scalar;
     }
     return change;
+}
+
+/* Forces at the present guess, and scalars by their rates there. */
+static double evaluate(struct sim *sim, double c)
+{
+    sim_forces(sim);
+    return follow_scalars(sim, c);
+}
+
+/* The same at the solution, for scalars alone: forces that only the accounts need leave no trace. */
+static void evaluate_scalars(struct sim *sim, double c)
+{
+    if (sim_state_scalars(sim) > 0)
+        sim_forces(sim);
+    else if (sim->ledger.on)
+        ledger_forces(sim);
+    follow_scalars(sim, c);
 }
 
 /* rhs = M (V - v) + c f. */
@@ -182,8 +198,7 @@ bool implicit_solve(struct sim *sim, double c)
         const double left = i == 0 ? linear_tolerance * size : size * (size / before);
         const bool is_small = is_noise || (i > 0 && left <= newton_tolerance * first);
         if ((is_small && scalar_change <= newton_tolerance) || size <= rounding(sim, c)) {
-            if (sim->scalar_count > 0)
-                evaluate(sim, c);
+            evaluate_scalars(sim, c);
             return true;
         }
     }

@@ -1,7 +1,11 @@
 #include "sim/ledger.h"
+#include "common/array.h"
 #include "common/threads.h"
 #include "common/vec3.h"
 #include "sim/membrane.h"
+
+#include <stdlib.h>
+#include <string.h>
 
 /* Sums are over this many shares of the points or edges, whoever works on them: equal to the bit for
  * any number of threads. */
@@ -119,11 +123,53 @@ void ledger_begin(struct sim *sim)
         sim->scalar[sim->ledger.first + i] = 0;
 }
 
+/* To where what effects have left is kept, or back. */
+static void copy_left(struct sim *sim, bool back)
+{
+    struct sim_ledger *ledger = &sim->ledger;
+    const size_t count = effects_left(sim, ledger->left);
+    unsigned char *kept = ledger->kept;
+    for (size_t i = 0; i < count; i++) {
+        void *left = ledger->left[i].data;
+        memcpy(back ? left : kept, back ? kept : left, ledger->left[i].size);
+        kept += ledger->left[i].size;
+    }
+}
+
+void ledger_forces(struct sim *sim)
+{
+    copy_left(sim, false);
+    sim_forces(sim);
+    copy_left(sim, true);
+}
+
+static enum status make_room(struct sim *sim, struct error *err)
+{
+    struct sim_ledger *ledger = &sim->ledger;
+    size_t size = 0;
+    ledger->left = array_new(sim->hook_count[EFFECT_FORCES] * EFFECT_BLOCKS_MAX, sizeof *ledger->left);
+    const size_t count = ledger->left ? effects_left(sim, ledger->left) : 0;
+    for (size_t i = 0; i < count; i++)
+        size += ledger->left[i].size;
+    ledger->kept = ledger->left ? array_new(size, 1) : NULL;
+    return ledger->kept ? STATUS_OK : error_no_memory(err, "the accounts of energy");
+}
+
+void ledger_close(struct sim *sim)
+{
+    free(sim->ledger.left);
+    free(sim->ledger.kept);
+    sim->ledger = (struct sim_ledger){0};
+}
+
 enum status ledger_open(struct sim *sim, struct error *err)
 {
     if (sim->ledger.on)
         return STATUS_OK;
-    enum status status = sim_add_scalars(sim, LEDGER_SCALARS, &sim->ledger.first, err);
+    ledger_close(sim); /* of an attempt that failed */
+    enum status status = make_room(sim, err);
+    if (!status)
+        status = sim_add_scalars(sim, LEDGER_SCALARS, &sim->ledger.first, err);
     if (status)
         return status;
     sim->ledger.on = true;

@@ -24,12 +24,19 @@ enum { LEDGER_PRESSURE, LEDGER_DISSIPATED, LEDGER_SCALARS };
 /* Opens the accounts at the present state; fine when they are open. Errors: STATUS_NO_MEMORY. */
 enum status ledger_open(struct sim *sim, struct error *err);
 
+/* Frees what it has; fine when it was never opened. */
+void ledger_close(struct sim *sim);
+
 /* Counts from the present state on, all accounts at 0. */
 void ledger_begin(struct sim *sim);
 
 /* Sets the rates of the ledger's scalars at the current state; sim->normal must be of that
  * state. For sim_forces(). */
 void ledger_rates(struct sim *sim);
+
+/* sim_forces() that a method asks for only so that the rates of the accounts are those of the current state:
+ * what effects go by at the end of the step (struct effect: left) stays as the forces before left it. */
+void ledger_forces(struct sim *sim);
 
 /* Energy of the active springs from edge begin to end: k_s (|l| - r)^2 / 2 each. */
 double ledger_elastic(const struct sim *sim, uint32_t begin, uint32_t end);

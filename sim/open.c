@@ -5,6 +5,7 @@
 #include "common/vec3.h"
 #include "sim/guard.h"
 #include "sim/kernels.h"
+#include "sim/ledger.h"
 #include "sim/topology.h"
 #include "sim/vectors.h"
 
@@ -19,6 +20,7 @@ void sim_clear(struct sim *sim)
     parts_close(sim);
     look_close(sim);
     guard_close(sim);
+    ledger_close(sim);
     void *arrays[] = {sim->normal,
                       sim->position,
                       sim->velocity,

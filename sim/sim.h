@@ -122,6 +122,8 @@ struct sim_ledger {
     } account;
     bool noted; /* what there was before obstacles or contact moved points in this step: */
     double before;
+    struct sim_block *left; /* for ledger_forces(): [hooks x EFFECT_BLOCKS_MAX] owned */
+    unsigned char *kept;    /* as many bytes as those blocks have; owned */
 };
 
 /* What the last step began with, and what is put back after a look inside it; empty where
