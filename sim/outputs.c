@@ -106,8 +106,10 @@ enum status outputs_show(struct outputs *outputs, struct sim *sim, struct error 
     const double rate = sim->scene->view.rate,
                  number = sim->time * rate + 1e-6; /* rounding must not put a frame off */
     enum status status = STATUS_OK;
-    if (!sim->integrator->look && number >= outputs->next)
+    if (!sim->integrator->look && number >= outputs->next) {
+        outputs->missed += floor(number) - outputs->next;
         outputs->next = floor(number);
+    }
     for (; !status && number >= outputs->next; outputs->next++) {
         sim_look(sim, outputs->next / rate);
         status = show_state(outputs, sim, err);

@@ -18,6 +18,7 @@ struct outputs {
     struct estimate *estimate; /* asked about each frame; borrowed; NULL: nobody asks */
     double centre[3], radius;  /* of the ball around all points at rest */
     double next;               /* number of the next frame, in frames of view.rate */
+    double missed;             /* frames that were due within a step, and are not there */
     size_t removed;            /* meshes of an earlier run, by outputs_close() */
     const char *plot, *title;  /* file of the log's plot (NULL: none), and what stands above it; borrowed */
     uint64_t shown;            /* frames so far */

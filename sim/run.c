@@ -30,6 +30,7 @@ struct run {
     struct {
         uint32_t parts;   /* of a split step; 0: not yet */
         uint64_t choices; /* of methods */
+        bool missed;      /* that frames are left out */
     } said;               /* about methods and steps */
 };
 
@@ -91,11 +92,26 @@ static enum status look_up(struct run *run, struct error *err)
                      options->checkpoint ? options->checkpoint : "");
 }
 
+/* Says once that steps are too long for the frames that are wanted: a film is faster than it should be. */
+static void note_missed(struct run *run)
+{
+    const struct outputs *outputs = &run->outputs;
+    if (run->said.missed || outputs->missed == 0 || (!outputs->film && !outputs->series && !outputs->cache))
+        return;
+    const double rate = run->sim->scene->view.rate;
+    command_note(
+        "at %.4g s: view.rate is %g frames a second, and steps are longer: each is one frame, and the film "
+        "is faster than it should be; take time.step=%.3g or less",
+        run->sim->time, rate, 1 / rate);
+    run->said.missed = true;
+}
+
 /* Who draws or measures this state has time for another look at it. */
 static enum status show(struct run *run, struct error *err)
 {
     const uint64_t shown = run->outputs.shown;
     enum status status = outputs_show(&run->outputs, run->sim, err);
+    note_missed(run);
     if (run->first_break < 0 && run->outputs.shown > shown && outputs_are_there(&run->outputs)) {
         nearest_break_look(run->sim, &run->nearest);
         run->looked = true;
