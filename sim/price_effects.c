@@ -38,14 +38,16 @@ static void print_table(const void *context, FILE *stream)
     }
 }
 
-/* Where the bars of changes stand, a decade below the least: there what changes nothing has none. */
+/* Where the bars of changes stand, a decade below the least: there what changes nothing, but by rounding, has
+ * none. */
 static double least_change(const struct effect_cost_table *table)
 {
+    static const double rounding = 1e-12;
     double least = INFINITY;
     for (size_t i = 0; i < table->count; i++)
-        if (!*table->rows[i].refused && table->rows[i].position > 0)
+        if (!*table->rows[i].refused && table->rows[i].position > rounding)
             least = fmin(least, table->rows[i].position);
-    return isfinite(least) ? fmax(1e-16, pow(10, floor(log10(least)) - 1)) : 1e-16;
+    return isfinite(least) ? pow(10, floor(log10(least)) - 1) : rounding;
 }
 
 /* Its name below a bar, with a star where the skin breaks otherwise without it: true there. */
@@ -82,6 +84,7 @@ static enum status draw(const void *context, const char *scene, const char *path
     const struct plot_panel panels[] = {
         {.title = "What each effect costs",
          .y_label = saved ? "% of the time; below 0: that it saves" : "% of the time",
+         .from_zero = true,
          .series = &of_time,
          .series_count = 1},
         {.title = starred ? "What changes without it; *: how the skin breaks, too"

@@ -42,3 +42,12 @@ if command -v gnuplot >/dev/null; then
 else
     echo "gnuplot is not installed: no picture was drawn"
 fi
+
+# Bars of time stand on nothing, however much each effect takes.
+mkdir bin
+printf '#!/bin/sh\ncat >"%s/script"\n' "$PWD" >bin/gnuplot
+chmod +x bin/gnuplot
+expect 0 env PATH="$PWD/bin:$PATH" balloon-sim cube.ply $calm --set 'balloons[0].gas.ambient=0.01' --effect-cost cost.svg
+from='[0:*]'
+awk -F'\t' '!/^#/ && NR > 1 && $2 < 0 { found = 1 } END { exit !found }' cost.tsv && from='[*:*]' # one that saves time
+grep -qxF "set yrange $from" script || fail "the bars stand on $(grep 'set yrange' script)"
