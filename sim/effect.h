@@ -100,9 +100,9 @@ enum status effects_settle(struct sim *sim, struct error *err); /* EFFECT_MOVED 
 size_t effects_begin_forces(struct sim *sim);
 void effects_finish_forces(struct sim *sim, const struct sim_part *part, size_t first);
 
-/* Of all effects together (struct effect): whether all can go on, their blocks, what forces have left (no more
- * than EFFECT_BLOCKS_MAX a hook), the energy that they hold, their powers, which are added, and what goes
- * with an edge or a triangle. */
+/* Of all effects together (struct effect): whether all can go on, their blocks, what forces have left (no
+ * more than EFFECT_BLOCKS_MAX a hook), the energy that they hold, their powers, which are added, and what
+ * goes with an edge or a triangle. */
 enum status effects_check(struct sim *sim, struct error *err);
 size_t effects_blocks(struct sim *sim, struct sim_block *blocks);
 size_t effects_left(struct sim *sim, struct sim_block *blocks);
