@@ -36,7 +36,7 @@ void sweep_part(struct sim *sim, const struct sim_part *part, void *move)
 
 bool sweep_sees_pushes(const struct sim *sim)
 {
-    return sim->swept && (!sim->changed || sim->pushed) && sim->integrator->flags & INTEGRATOR_ONE_SWEEP;
+    return sim->swept && (!sim->changed || sim->pushed) && sim->acting->flags & INTEGRATOR_ONE_SWEEP;
 }
 
 void sweep_see_pushed(struct sim *sim, size_t part, uint32_t point)
@@ -78,7 +78,7 @@ double sweep_saw_hardest(const struct sim *sim, const struct sim_balloon *balloo
 
 double sweep_saw_farthest(const struct sim *sim)
 {
-    return sim->swept && sim->integrator->flags & INTEGRATOR_ONE_SWEEP ? farthest(sim) : INFINITY;
+    return sim->swept && sim->acting->flags & INTEGRATOR_ONE_SWEEP ? farthest(sim) : INFINITY;
 }
 
 double sweep_saw_energy(const struct sim *sim)

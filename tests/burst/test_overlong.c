@@ -82,6 +82,15 @@ static void rubber_that_swells(void **state)
                                                    "balloons[0].pressure=0.5", "balloons[0].threshold=1.5"});
 }
 
+/* What auto has chosen moves points by one sweep. */
+static void rubber_that_swells_by_the_method_that_is_chosen(void **state)
+{
+    (void)state;
+    check_the_same_breaks(200, (const char *[KEYS_MAX]){RUBBER, "balloons[0].pressure_on=areas",
+                                                        "balloons[0].pressure=0.5",
+                                                        "balloons[0].threshold=1.5", "time.integrator=auto"});
+}
+
 static void a_threshold_that_falls(void **state)
 {
     (void)state;
@@ -157,6 +166,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rubber_that_swells),
+        cmocka_unit_test(rubber_that_swells_by_the_method_that_is_chosen),
         cmocka_unit_test(a_threshold_that_falls),
         cmocka_unit_test(rubber_that_swells_by_another_method),
         cmocka_unit_test(edges_that_slip),
