@@ -274,7 +274,15 @@ static void after(struct sim *sim, struct sim_balloon *b)
 static enum status check(struct sim *sim, struct sim_balloon *b, struct error *err)
 {
     const struct gas *gas = b->gas;
-    if (gas->memory.gone || !is_collapsed(gas))
+    if (gas->memory.gone)
+        return STATUS_OK;
+    if (!(gas_amount(sim, gas) > 0))
+        return error_set(
+            err, STATUS_DIVERGED,
+            "%s: diverged at time %g (step %llu): more gas than there is left balloons[%zu] within a "
+            "step; take a shorter step, another integrator, or a narrower tube",
+            sim->scene->path, sim->time, (unsigned long long)sim->steps, (size_t)(b - sim->balloons));
+    if (!is_collapsed(gas))
         return STATUS_OK;
     return error_set(
         err, STATUS_DIVERGED,

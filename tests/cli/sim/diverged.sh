@@ -7,3 +7,14 @@ refused 3 'm.ply: diverged at time [0-9]+ \(step [0-9]+\): point [0-9]+ of ballo
 a_file log.tsv
 refused 3 'diverged at time' balloon-sim m.ply $wild --set balloons[0].damping=1e9 --frames frames --contact-sheet sheet.png
 a_file frames/frame_0000.png
+
+# gas that flows faster than a method follows does not become less than none
+ply tetra.ply "$tetra_points" "$tetra_triangles"
+cat >tube.cfg <<'EOF'
+time = { step = 0.005; end = 0.1; integrator = "rk-adaptive"; };
+balloons = ( { mesh = "tetra.ply"; gas = { ambient = 0.001; }; tube = { to = 1; area = 1e12; }; },
+             { mesh = "tetra.ply"; position = [200.0, 0.0, 0.0]; gas = { ambient = 0.001; fill = 1.2; };
+               membrane = { thickness = 0.27; }; } );
+EOF
+expect 3 balloon-sim tube.cfg --log tube.tsv
+stderr_has '^balloon-sim: tube\.cfg: diverged at time .*: more gas than there is left balloons\[[01]\] within a step; .*tube'
