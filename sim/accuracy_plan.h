@@ -20,6 +20,7 @@ struct accuracy_plan {
     double evaluation; /* s: what one takes */
     double stable;     /* s: the largest step that is surely stable for symplectic-euler */
     double reach;      /* s: until when runs can be compared at all */
+    double tightest;   /* tolerance that has worked for a reference; 0: none has been tried yet */
     /* Steps of the scene's from one of the subject's times to the next; 0: it is a part of one. */
     uint32_t quarter;
     double step; /* s: the scene's, or a little less when quarter is 0 */

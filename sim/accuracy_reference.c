@@ -25,12 +25,15 @@ static void tell_run(struct accuracy_plan *plan)
     plan->subject.done += 0.25 * (ACCURACY_REFERENCES_DONE - plan->subject.done);
 }
 
+/* Of a scene that is hard each try that fails takes all of its time: a shorter span begins not far below what
+ * could be kept over a longer one. */
 static enum status find_tolerant(struct accuracy_plan *plan, const struct pair *pair,
                                  struct accuracy_states *states, struct error *err)
 {
     enum status status = STATUS_RESOURCE;
+    const double first = fmax(plan->tightest / 1e3, 1e-12);
     for (int i = 0; pair->tolerant[i]; i++)
-        for (double tolerance = 1e-12; tolerance < 1e-5; tolerance *= 10) {
+        for (double tolerance = first; tolerance < 1e-5; tolerance *= 10) {
             const struct integrator *method = integrator_find(pair->tolerant[i]);
             const struct accuracy_dials dials = accuracy_dials_of(plan, method, tolerance);
             struct accuracy_run run;
@@ -39,6 +42,7 @@ static enum status find_tolerant(struct accuracy_plan *plan, const struct pair *
             if (!status) {
                 snprintf(plan->table->reference[0], sizeof plan->table->reference[0],
                          "%s at time.tolerance=%g", method->name, tolerance);
+                plan->tightest = tolerance;
                 accuracy_close(&run);
                 return STATUS_OK;
             }
