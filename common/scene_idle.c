@@ -34,6 +34,16 @@ static bool method_keeps_the_step(const struct scene *scene, size_t number)
     return !is_method(scene, names, 1) && !method_keeps_a_tolerance(scene, number);
 }
 
+/* rk-adaptive goes by it where gas flows between balloons (guard.h). */
+static bool method_asks_no_guard(const struct scene *scene, size_t number)
+{
+    static const char *const names[] = {"rk-adaptive"};
+    bool tube = false;
+    for (size_t i = 0; i < scene->balloon_count; i++)
+        tube |= scene->balloons[i].tube.on;
+    return method_keeps_a_tolerance(scene, number) && !(tube && is_method(scene, names, 1));
+}
+
 static bool view_is_mono(const struct scene *scene, size_t number)
 {
     (void)number;
@@ -161,7 +171,7 @@ static const struct rule {
 } rules[] = {
     {"time", "tolerance", method_keeps_the_step,
      "this integrator takes the steps that it is told; \"auto\", \"rk-adaptive\" and CVODE's go by it"},
-    {"time", "guard", method_keeps_a_tolerance, "this integrator chooses its own steps, by tolerance"},
+    {"time", "guard", method_asks_no_guard, "this integrator chooses its own steps, by tolerance"},
     {"view", "eye_distance", view_is_mono, "stereo = \"mono\" has one eye"},
     {"view", "squeezed", view_has_no_halves,
      "only halves, of stereo = \"parallel\", \"crossed\" or \"over-under\", are squeezed"},

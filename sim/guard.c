@@ -136,6 +136,12 @@ static enum status refuse(struct sim *sim, struct error *err)
     return error_set(err, STATUS_DIVERGED, "%s: refused at time %g: %s", sim->scene->path, sim->time, text);
 }
 
+enum status guard_longest_step(struct sim *sim, double *longest, struct error *err)
+{
+    *longest = sim->scene->time.guard == SCENE_GUARD_OFF ? INFINITY : guard_stable_step(sim);
+    return sim->whole_step <= *longest * GUARD_PARTS_MAX ? STATUS_OK : refuse(sim, err);
+}
+
 /* The fewest equal parts that are stable, beyond rounding. */
 static double parts_needed(const struct sim *sim)
 {

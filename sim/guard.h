@@ -73,6 +73,11 @@ void guard_cut(struct sim *sim, const struct sim_balloon *balloon, uint32_t poin
 /* The largest step that is surely stable as things are: INFINITY when any is, 0 when none is. */
 double guard_stable_step(struct sim *sim);
 
+/* The longest step that a method which chooses its own may try: it goes by how the points move, and sees
+ * nothing of what flows between balloons. INFINITY where nothing does, and with time.guard = "off".
+ * Error: STATUS_DIVERGED when a step would be split in more than GUARD_PARTS_MAX. */
+enum status guard_longest_step(struct sim *sim, double *longest, struct error *err);
+
 /* At the `first` of the substeps of a step, chooses sim->substeps, and with it sim->step.
  * Error: STATUS_DIVERGED when the step is not surely stable and time.guard is "refuse", or
  * when no split would do. */

@@ -6,11 +6,12 @@
  * radii and of velocities in mean radii times the rate at which the balloon breathes (weights.h). The next
  * step's length follows from this error and the last one (a PI controller: Gustafsson, ACM TOMS 17 (1991)
  * 533; constants of Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, II.4 and IV.2).
- * Scalars are integrated along and do not choose.
+ * Scalars are integrated along and do not choose; what flows between balloons sets a longest step (guard.h).
  *
  * The last stage of a step is the first of the next. It is evaluated anew where that may not hold: after
  * something broke, and when the state is not the one that the last step left.
  */
+#include "sim/guard.h"
 #include "sim/methods.h"
 #include "sim/runge_kutta.h"
 #include "sim/vectors.h"
@@ -125,13 +126,17 @@ static enum status refuse(struct sim *sim, double dt, struct error *err)
 static enum status advance(struct sim *sim, double longest, struct error *err)
 {
     struct adaptive *adaptive = sim->method;
+    double allowed;
+    const enum status status = guard_longest_step(sim, &allowed, err);
+    if (status)
+        return status;
     first_stage(sim, adaptive);
     if (!(adaptive->control.next > 0)) {
         adaptive->control.next = first_step(sim, longest);
         adaptive->control.last_error = 1;
     }
     /* Before a change or the end, two equal steps rather than a long and a very short one. */
-    const double next = adaptive->control.next;
+    const double next = fmin(adaptive->control.next, allowed);
     const bool near = longest < sim->step;
     double dt = next >= longest ? longest : near && next > longest / 2 ? longest / 2 : next;
     bool refused = false;

@@ -127,7 +127,7 @@ static double flown(const char *area, const char *integrator, const char *step, 
 {
     struct pair pair;
     char text[256];
-    open_pair(&pair, 1, SETTINGS(area, integrator, step));
+    open_pair(&pair, 1, SETTINGS(area, integrator, step, "time.end=1"));
     guard_describe(&pair.sim, text, sizeof text);
     *split = strstr(text, "is split in") && strstr(text, "follow what flows in the tube of balloons[0]");
     const double first = amount_in(&pair, 0);
@@ -169,6 +169,19 @@ static void the_guard_splits_what_a_tube_is_too_fast_for(void **state)
     assert_true(split[0] && !split[1]);
     assert_true(fine > 0.5);
     assert_near(coarse, fine, 2e-4 * fine);
+}
+
+/* rk-adaptive chooses its steps by how points move, which says nothing of what flows meanwhile. */
+static void a_method_that_chooses_its_steps_follows_a_wide_tube(void **state)
+{
+    (void)state;
+    bool split[2];
+    const double chosen = flown("balloons[0].tube.area=3", "time.integrator=rk-adaptive", "time.step=0.01",
+                                &split[0]),
+                 fine = flown("balloons[0].tube.area=3", "time.integrator=rk4", "time.step=0.01", &split[1]);
+    print_message("# %.9f has flown in steps of its own choice, %.9f in split ones\n", chosen, fine);
+    assert_true(!split[0] && split[1]);
+    assert_near(chosen, fine, 1e-5 * fine);
 }
 
 /* Where it may not, less flows than would, and that is told: once, and by who can follow the flow never. */
@@ -222,6 +235,7 @@ int main(void)
         cmocka_unit_test(what_flows_converges_with_the_step),
         cmocka_unit_test(a_tube_to_what_has_burst_ends_in_the_air),
         cmocka_unit_test(the_guard_splits_what_a_tube_is_too_fast_for),
+        cmocka_unit_test(a_method_that_chooses_its_steps_follows_a_wide_tube),
         cmocka_unit_test(what_is_held_back_is_told_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -16,5 +16,9 @@ balloons = ( { mesh = "tetra.ply"; gas = { ambient = 0.001; }; tube = { to = 1; 
              { mesh = "tetra.ply"; position = [200.0, 0.0, 0.0]; gas = { ambient = 0.001; fill = 1.2; };
                membrane = { thickness = 0.27; }; } );
 EOF
-expect 3 balloon-sim tube.cfg --log tube.tsv
+expect 3 balloon-sim tube.cfg --log tube.tsv --set time.guard=off
 stderr_has '^balloon-sim: tube\.cfg: diverged at time .*: more gas than there is left balloons\[[01]\] within a step; .*tube'
+one_message # nor that time.guard does nothing
+dense='--set balloons[0].gas.ambient=6 --set balloons[1].gas.ambient=6'
+refused 3 'tube.cfg: refused at time 0: steps up to .* follow what flows in the tube of balloons\[0\]' \
+    balloon-sim tube.cfg --log tube.tsv $dense
