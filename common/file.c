@@ -46,12 +46,23 @@ static enum status read_stream(FILE *stream, const char *path, struct bytes *out
     return STATUS_OK;
 }
 
+/* A terminal's text ends where the user ends it, and nothing at once. */
+static bool may_not_end(FILE *stream, const char *path)
+{
+    struct stat info;
+    if (fstat(fileno(stream), &info) || !(S_ISCHR(info.st_mode) || S_ISBLK(info.st_mode)))
+        return false;
+    return !isatty(fileno(stream)) && !file_same(path, "/dev/null");
+}
+
 enum status file_read(const char *path, struct bytes *out, struct error *err)
 {
     FILE *stream = fopen(path, "rbe");
     if (!stream)
         return error_set_errno(err, path, "open");
-    enum status status = read_stream(stream, path, out, err);
+    enum status status = may_not_end(stream, path)
+                             ? error_set(err, STATUS_FILE, "%s: is a device; give a file or a pipe", path)
+                             : read_stream(stream, path, out, err);
     fclose(stream);
     return status;
 }

@@ -26,7 +26,8 @@ struct bytes {
     size_t size;
 };
 
-/* Reads all of path. On failure *out is as it was. Errors: STATUS_FILE, STATUS_NO_MEMORY. */
+/* Reads all of path. On failure *out is as it was. Errors: STATUS_FILE, also of a device, which need not end;
+ * STATUS_NO_MEMORY. */
 enum status file_read(const char *path, struct bytes *out, struct error *err);
 void bytes_clear(struct bytes *bytes);
 

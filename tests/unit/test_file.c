@@ -135,6 +135,18 @@ static void missing_folders_and_folders_are_refused_by_name(void **state)
     assert_refused(file_read(".", &bytes, &err), STATUS_FILE, ".: cannot read", &err);
 }
 
+/* Most have no end. The one that is empty is as good as a file. */
+static void a_device_is_refused_at_once(void **state)
+{
+    (void)state;
+    static const char *const endless[] = {"/dev/zero", "/dev/full", "/dev/urandom"};
+    struct error err = {0};
+    struct bytes bytes;
+    for (size_t i = 0; i < sizeof endless / sizeof *endless; i++)
+        assert_refused(file_read(endless[i], &bytes, &err), STATUS_FILE, "is a device", &err);
+    assert_contents("/dev/null", "");
+}
+
 /* It is no regular file, so it is written in place, and cannot be. */
 static void a_socket_is_refused_and_stays(void **state)
 {
@@ -157,6 +169,7 @@ int main(void)
         cmocka_unit_test(a_link_is_followed_not_replaced),
         cmocka_unit_test(a_full_disk_is_reported),
         cmocka_unit_test(a_pipe_is_read_to_its_end),
+        cmocka_unit_test(a_device_is_refused_at_once),
         cmocka_unit_test(a_socket_is_refused_and_stays),
         cmocka_unit_test(missing_folders_and_folders_are_refused_by_name),
     };
