@@ -138,9 +138,11 @@ static void copy_left(struct sim *sim, bool back)
 
 void ledger_forces(struct sim *sim)
 {
+    const uint64_t evaluations = sim->evaluations; /* by which auto chooses */
     copy_left(sim, false);
     sim_forces(sim);
     copy_left(sim, true);
+    sim->evaluations = evaluations;
 }
 
 static enum status make_room(struct sim *sim, struct error *err)

@@ -208,6 +208,15 @@ static void keeping_accounts_changes_no_bit_of_the_state(void **state)
     }
 }
 
+/* Springs so stiff that it tries implicit methods, which work out forces for the accounts alone. */
+static void what_auto_counts_has_none_of_the_accounts_work(void **state)
+{
+    (void)state;
+    const char *const *const stiff = SETTINGS("time.integrator=auto", "balloons[0].spring=1e6",
+                                              "balloons[0].threshold=100", "balloons[0].pressure=0.1");
+    assert_true(hash_of(stiff, true, false) == hash_of(stiff, false, false));
+}
+
 static void nothing_is_counted_unless_it_is_asked_for(void **state)
 {
     (void)state;
@@ -232,6 +241,7 @@ int main(void)
         cmocka_unit_test(a_look_inside_a_step_finds_the_accounts_as_they_were),
         cmocka_unit_test(the_accounts_are_equal_to_the_bit_for_any_number_of_threads),
         cmocka_unit_test(keeping_accounts_changes_no_bit_of_the_state),
+        cmocka_unit_test(what_auto_counts_has_none_of_the_accounts_work),
         cmocka_unit_test(nothing_is_counted_unless_it_is_asked_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
