@@ -17,7 +17,18 @@ struct file_out {
     char *temporary; /* NULL where the target is written in place */
 };
 
-static enum status read_stream(FILE *stream, const char *path, struct bytes *out, struct error *err)
+struct signature {
+    const void *bytes;
+    size_t size;
+};
+
+static bool is_something_else(const unsigned char *data, size_t size, const struct signature *signature)
+{
+    return size >= signature->size && memcmp(data, signature->bytes, signature->size) != 0;
+}
+
+static enum status read_stream(FILE *stream, const char *path, const struct signature *signature,
+                               struct bytes *out, struct error *err)
 {
     size_t size = 0, capacity = 1 << 16;
     struct stat info;
@@ -27,7 +38,7 @@ static enum status read_stream(FILE *stream, const char *path, struct bytes *out
     while (data) {
         size_t got = fread(data + size, 1, capacity - 1 - size, stream);
         size += got;
-        if (got == 0 || size < capacity - 1)
+        if (got == 0 || size < capacity - 1 || is_something_else(data, size, signature))
             break;
         unsigned char *larger = capacity <= SIZE_MAX / 2 ? realloc(data, 2 * capacity) : NULL;
         if (!larger)
@@ -57,12 +68,19 @@ static bool may_not_end(FILE *stream, const char *path)
 
 enum status file_read(const char *path, struct bytes *out, struct error *err)
 {
+    return file_read_signed(path, "", 0, out, err);
+}
+
+enum status file_read_signed(const char *path, const void *signature, size_t signature_size,
+                             struct bytes *out, struct error *err)
+{
     FILE *stream = fopen(path, "rbe");
     if (!stream)
         return error_set_errno(err, path, "open");
     enum status status = may_not_end(stream, path)
                              ? error_set(err, STATUS_FILE, "%s: is a device; give a file or a pipe", path)
-                             : read_stream(stream, path, out, err);
+                             : read_stream(stream, path, &(struct signature){signature, signature_size}, out,
+                                           err);
     fclose(stream);
     return status;
 }

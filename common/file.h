@@ -29,6 +29,11 @@ struct bytes {
 /* Reads all of path. On failure *out is as it was. Errors: STATUS_FILE, also of a device, which need not end;
  * STATUS_NO_MEMORY. */
 enum status file_read(const char *path, struct bytes *out, struct error *err);
+
+/* The same of a format that begins with a signature. What does not is read no further than its first block,
+ * since it need not end: the caller, who looks at the signature, refuses it. */
+enum status file_read_signed(const char *path, const void *signature, size_t signature_size,
+                             struct bytes *out, struct error *err);
 void bytes_clear(struct bytes *bytes);
 
 struct file_out;

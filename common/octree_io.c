@@ -302,7 +302,7 @@ enum status octree_load_with(const char *path, struct octree *tree, struct octre
                              struct error *err)
 {
     struct bytes file = {0};
-    enum status status = file_read(path, &file, err);
+    enum status status = file_read_signed(path, signature, sizeof signature, &file, err);
     if (status)
         return status;
     struct octree_chunks others = {0};

@@ -119,7 +119,7 @@ enum status vox_load(const char *path, struct octree *tree, struct error *err)
     struct bytes file = {0};
     struct vox_scene scene = {0};
     struct octree made = {0};
-    enum status status = file_read(path, &file, err);
+    enum status status = file_read_signed(path, "VOX ", 4, &file, err);
     if (status)
         return status;
     status = build(&scene, &file, &made, err);

@@ -284,7 +284,8 @@ enum status checkpoint_load(const char *path, struct sim *sim, struct checkpoint
 {
     struct reader reader = {.sim = sim};
     struct checkpoint_run got = {0};
-    enum status status = file_read(path, &reader.file, err);
+    enum status status = file_read_signed(path, checkpoint_signature, sizeof checkpoint_signature,
+                                          &reader.file, err);
     if (status)
         return status;
     status = read_all(&reader, &got, err);

@@ -135,6 +135,32 @@ static void missing_folders_and_folders_are_refused_by_name(void **state)
     assert_refused(file_read(".", &bytes, &err), STATUS_FILE, ".: cannot read", &err);
 }
 
+/* A pipe need not end either: what does not begin as it must is read no further. */
+static void a_pipe_of_something_else_is_left_at_once(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct bytes bytes = {0};
+    int ended;
+    assert_int_equal(mkfifo("endless", 0600), 0);
+    const pid_t writer = fork();
+    if (writer == 0) {
+        FILE *stream = fopen("endless", "w");
+        for (int i = 0; i < 100000000; i++) /* ends by a signal where nobody reads on */
+            fputc('x', stream);
+        _exit(0);
+    }
+    assert_ok(file_read_signed("endless", "oct", 3, &bytes, &err), &err);
+    assert_true(bytes.size >= 3 && bytes.size < 1 << 17 && bytes.data[bytes.size] == 0);
+    bytes_clear(&bytes);
+    assert_int_equal(waitpid(writer, &ended, 0), writer);
+    assert_true(WIFSIGNALED(ended));
+    write_text("signed", "oct and more");
+    assert_ok(file_read_signed("signed", "oct", 3, &bytes, &err), &err);
+    assert_string_equal((const char *)bytes.data, "oct and more");
+    bytes_clear(&bytes);
+}
+
 /* Most have no end. The one that is empty is as good as a file. */
 static void a_device_is_refused_at_once(void **state)
 {
@@ -169,6 +195,7 @@ int main(void)
         cmocka_unit_test(a_link_is_followed_not_replaced),
         cmocka_unit_test(a_full_disk_is_reported),
         cmocka_unit_test(a_pipe_is_read_to_its_end),
+        cmocka_unit_test(a_pipe_of_something_else_is_left_at_once),
         cmocka_unit_test(a_device_is_refused_at_once),
         cmocka_unit_test(a_socket_is_refused_and_stays),
         cmocka_unit_test(missing_folders_and_folders_are_refused_by_name),
