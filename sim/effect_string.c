@@ -218,6 +218,22 @@ static void power(struct sim *sim, struct sim_balloon *b, double *dissipated, do
     *dissipated += (pull.tension - spring) * vec3_dot(pull.speed, pull.along);
 }
 
+/* A weight whose place is no number pulls at nothing: the skin goes on without a word. */
+static enum status check(struct sim *sim, struct sim_balloon *b, struct error *err)
+{
+    const struct string *string = b->string;
+    double sum = 0; /* no number where one of them is none */
+    for (int i = 0; string->weight > 0 && i < STRING_SCALARS; i++)
+        sum += 0 * sim->scalar[string->scalar + (uint32_t)i];
+    if (sum == 0)
+        return STATUS_OK;
+    return error_set(
+        err, STATUS_DIVERGED,
+        "%s: diverged at time %g (step %llu): the weight on the string of balloons[%zu] has run away; take "
+        "a shorter step, another integrator, or a softer string",
+        sim->scene->path, sim->time, (unsigned long long)sim->steps, (size_t)(b - sim->balloons));
+}
+
 const struct effect effect_string = {.name = "string",
                                      .phase = EFFECT_FORCES,
                                      .wanted = wanted,
@@ -229,6 +245,7 @@ const struct effect effect_string = {.name = "string",
                                      .reorder = reorder,
                                      .product = product,
                                      .bound = bound,
+                                     .check = check,
                                      .energy = energy,
                                      .power = power,
                                      .damps = true,

@@ -298,6 +298,21 @@ static void a_given_pressure_works_by_p_dv(void **state)
     close_balloon(&b);
 }
 
+/* It may be so stiff that a step goes wrong; no point of the skin need tell, since what is nowhere pulls at
+ * nothing. */
+static void test_a_weight_that_runs_away_ends_the_run(void **state)
+{
+    (void)state;
+    struct balloon b;
+    struct error err = {0};
+    open_balloon(&b, 1, SETTINGS("balloons[0].string.weight=7", "balloons[0].pressure=0"));
+    steps(&b, 1);
+    b.sim.scalar[b.sim.scalar_count - 1] = INFINITY;
+    assert_refused(sim_step(&b.sim, &err), STATUS_DIVERGED,
+                   "the weight on the string of balloons[0] has run away", &err);
+    close_balloon(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -312,6 +327,7 @@ int main(void)
         cmocka_unit_test(a_weight_and_its_balloon_fall_as_one),
         cmocka_unit_test(the_balance_of_energies_holds),
         cmocka_unit_test(a_given_pressure_works_by_p_dv),
+        cmocka_unit_test(test_a_weight_that_runs_away_ends_the_run),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
