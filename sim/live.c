@@ -93,6 +93,8 @@ enum status live_step(struct live *live, struct error *err)
         sim->ledger.account.user += held - hand_energy(&live->hand, sim);
     live->window.steps++;
     live->window.simulated += sim->taken;
+    if (live->stepped)
+        live->stepped(live->self);
     if (status)
         live->paused = true;
     else if (sim->time + 1e-9 * frame_seconds(live) >= live->due)

@@ -35,6 +35,8 @@ struct live {
         double seconds, simulated, steps;
     } window;                    /* what speed and rate are being counted in */
     double standard[LIVE_DIALS]; /* the dials' values at the start */
+    void (*stepped)(void *self); /* called after each step, also one that failed; NULL: nobody is */
+    void *self;
 
     struct hand hand;
 };

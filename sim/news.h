@@ -1,11 +1,20 @@
-/* What effects tell as it happens, for those who read what a program says. */
+/* What a run tells as it happens, for those who read what a program says. */
 #ifndef SIM_NEWS_H
 #define SIM_NEWS_H
 
 #include "sim/sim.h"
 
-/* Notes on stderr what they have told since it was asked last: that they wake, go to sleep, or can do no
- * more. */
-void news_note(struct sim *sim);
+struct news {
+    /* Hears each line, too, and from which time on it is true; NULL: nobody does. */
+    void (*hear)(void *self, double time, const char *line);
+    void *self;
+    uint32_t parts;   /* of a split step, when that was said; 0: not yet */
+    uint64_t choices; /* of methods, when they were said */
+};
+
+/* Notes on stderr, after a step: that steps are split, and why, and again when that is in ten times as many
+ * parts, or which method has been chosen; what effects have told since it was asked last: that they wake, go
+ * to sleep, or can do no more. *news begins with nothing said. */
+void news_note(struct news *news, struct sim *sim);
 
 #endif

@@ -3,8 +3,6 @@
 #include "common/file.h"
 #include "common/plot.h"
 #include "common/vec3.h"
-#include "sim/auto.h"
-#include "sim/guard.h"
 #include "sim/interrupt.h"
 #include "sim/ledger.h"
 #include "sim/nearest_break.h"
@@ -27,11 +25,8 @@ struct run {
     struct nearest_break nearest; /* until then, in what was shown */
     bool looked;                  /* anything was */
     double began, kept;           /* now() at the start, and at the last checkpoint */
-    struct {
-        uint32_t parts;   /* of a split step; 0: not yet */
-        uint64_t choices; /* of methods */
-        bool missed;      /* that frames are left out */
-    } said;               /* about methods and steps */
+    struct news news;
+    bool said_missed; /* that frames are left out */
 };
 
 static double now(void)
@@ -39,24 +34,6 @@ static double now(void)
     struct timespec time;
     clock_gettime(CLOCK_MONOTONIC, &time);
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-/* Says that steps are split, and why, and again when that is in ten times as many parts; or each time what
- * has been chosen. */
-static void note_method(struct run *run)
-{
-    struct sim *sim = run->sim;
-    char text[256];
-    if (auto_describe(sim, &run->said.choices, text, sizeof text)) {
-        command_note("%s", text);
-    } else if (sim->substeps > 1 && sim->substeps >= 10 * run->said.parts && sim->acting == sim->integrator) {
-        guard_describe(sim, text, sizeof text);
-        if (run->said.parts)
-            command_note("at %.4g s: %s", sim->time, text);
-        else
-            command_note("%s", text);
-        run->said.parts = sim->substeps;
-    }
 }
 
 static enum status keep(struct run *run, struct error *err)
@@ -96,14 +73,14 @@ static enum status look_up(struct run *run, struct error *err)
 static void note_missed(struct run *run)
 {
     const struct outputs *outputs = &run->outputs;
-    if (run->said.missed || outputs->missed == 0 || (!outputs->film && !outputs->series && !outputs->cache))
+    if (run->said_missed || outputs->missed == 0 || (!outputs->film && !outputs->series && !outputs->cache))
         return;
     const double rate = run->sim->scene->view.rate;
     command_note(
         "at %.4g s: view.rate is %g frames a second, and steps are longer: each is one frame, and the film "
         "is faster than it should be; take time.step=%.3g or less",
         run->sim->time, rate, 1 / rate);
-    run->said.missed = true;
+    run->said_missed = true;
 }
 
 /* Who draws or measures this state has time for another look at it. */
@@ -123,8 +100,7 @@ static enum status step(struct run *run, struct error *err)
 {
     struct sim *sim = run->sim;
     enum status status = sim_step(sim, err);
-    note_method(run);
-    news_note(sim);
+    news_note(&run->news, sim);
     if (sim->broken && run->first_break < 0)
         run->first_break = sim->time;
     return status ? status : show(run, err);

@@ -4,7 +4,6 @@
 #include "common/vec3.h"
 #include "sim/interrupt.h"
 #include "sim/ledger.h"
-#include "sim/news.h"
 #include "sim/window_app.h"
 
 #include <math.h>
@@ -82,7 +81,6 @@ void app_step(struct app *app)
     app->live.paused = true;
     app->stale = true;
     say_unless_ok(app, live_step(&app->live, &err), &err);
-    news_note(app->live.sim);
     app_record_frame(app);
     app_pause(app, true);
 }
@@ -103,6 +101,7 @@ void app_show(struct app *app, double frame)
 {
     const double last = (double)app->live.past.count - 1;
     live_show(&app->live, (size_t)fmin(fmax(frame, 0), last));
+    app_forget_news(app);
     app->touched = app->stale = true;
     app_pause(app, true);
 }
@@ -110,6 +109,7 @@ void app_show(struct app *app, double frame)
 void app_restart(struct app *app)
 {
     live_restart(&app->live);
+    app_forget_news(app);
     hints_say(&app->hints, "");
     app->touched = app->stale = true;
     app_pause(app, false);
@@ -163,7 +163,6 @@ static void run(void *self)
         status = ask_estimate(app, &err);
     if (app->live.sim->steps != steps)
         app->stale = true;
-    news_note(app->live.sim);
     say_unless_ok(app, status, &err);
 }
 
@@ -182,6 +181,7 @@ static void tick(void *self)
     run(app);
     app->due = fmin(now - app->clock, longest_tick);
     app->clock = now;
+    app_pass_news(app, app->due);
     app_record_frame(app);
     window_redraw(app->window);
     schedule(app);
@@ -265,6 +265,12 @@ static enum status open_log(struct app *app, struct error *err)
     return status ? status : sim_log_open(app->options->log, &log, &app->log, err);
 }
 
+static void stepped(void *self)
+{
+    struct app *app = self;
+    news_note(&app->telling, app->live.sim);
+}
+
 static enum status begin(struct app *app, struct sim *sim, struct error *err)
 {
     app->ball[3] = skins_ball(sim, app->ball);
@@ -277,6 +283,8 @@ static enum status begin(struct app *app, struct sim *sim, struct error *err)
         status = live_open(&app->live, sim, app->options->memory, err);
     else
         app->live = (struct live){0};
+    app->live.stepped = stepped;
+    app->live.self = app;
     return status;
 }
 
@@ -284,6 +292,7 @@ enum status sim_window(const struct sim_window_options *options, struct sim *sim
                        struct error *err)
 {
     struct app app = {.options = options, .estimate = estimate, .error = NAN, .panel = true, .stale = true};
+    app.telling = (struct news){.hear = app_hear, .self = &app};
     interrupt_watch();
     enum status status = begin(&app, sim, err);
     if (!status) {

@@ -1,6 +1,6 @@
 /* Inside of the live window: what its files share. window.c answers the clock, window_mouse.c and
  * window_keys.c the hand; window_draw.c shows the skin, window_panel.c what lies over it, window_text.c what
- * there is to be read; window_record.c films. */
+ * there is to be read, window_news.c what the run has told; window_record.c films. */
 #ifndef SIM_WINDOW_APP_H
 #define SIM_WINDOW_APP_H
 
@@ -11,6 +11,7 @@
 #include "render/window.h"
 #include "sim/live.h"
 #include "sim/log.h"
+#include "sim/news.h"
 #include "sim/skins.h"
 #include "sim/window.h"
 
@@ -33,6 +34,16 @@ struct window_bands {
     double (*position)[3], (*normal)[3]; /* [3 x sim->triangle_count] of each triangle's corners */
     uint32_t (*triangle)[3];             /* [sim->triangle_count] 0 1 2, 3 4 5, ... */
     unsigned char *band;                 /* [sim->triangle_count] */
+};
+
+/* What the run has told of late, the oldest first. */
+enum { WINDOW_NEWS = 3 };
+struct window_news {
+    struct window_news_item {
+        char line[512];
+        double time, left; /* of the simulation; s for which it is still shown while time goes on */
+    } items[WINDOW_NEWS];
+    size_t count;
 };
 
 struct app {
@@ -89,6 +100,8 @@ struct app {
         size_t count, capacity;
     } boxes;
     struct hints hints;
+    struct news telling;
+    struct window_news news;
     struct error failed; /* what ended the program */
 };
 
@@ -157,11 +170,18 @@ int app_text_width(const struct app *app);
 bool app_plot_ranges(const struct app *app, double stretch[2], double pressure[2]);
 
 /* window_text.c: what there is to be read; it is good until the next call. */
-enum { WINDOW_TEXTS_MAX = 16 };
+enum { WINDOW_TEXTS_MAX = 17 };
 size_t app_texts(struct app *app, struct render_text texts[WINDOW_TEXTS_MAX]);
 
 /* The keys are listed, and there is no room for anything beside them. */
 bool app_help_alone(const struct app *app);
+
+/* window_news.c: hears a line, as struct news asks for; so many seconds have passed with time going on, which
+ * do not count while the list of keys is in their place; what is later than the state that is shown has not
+ * happened. */
+void app_hear(void *self, double time, const char *line);
+void app_pass_news(struct app *app, double seconds);
+void app_forget_news(struct app *app);
 
 /* window_record.c: begins or ends a film; takes a picture where the film is due one; one PNG. */
 void app_record(struct app *app);

@@ -26,7 +26,7 @@ static const char app_help[] = "left       prick, drag: pull     middle, alt+lef
 /* Measures are taken this often, and may take a twentieth of the time. */
 static const double measure_seconds = 0.1, measure_share = 0.05;
 
-static const float white[3] = {1, 1, 1}, warm[3] = {1, 0.8f, 0.3f};
+static const float white[3] = {1, 1, 1}, warm[3] = {1, 0.8f, 0.3f}, cool[3] = {0.55f, 0.85f, 1};
 
 static void measure(struct app *app)
 {
@@ -173,16 +173,41 @@ static struct render_text help_at(int y)
     return (struct render_text){app_help, 3 * MARGIN, y, 1, {white[0], white[1], white[2]}, true};
 }
 
+/* The upper border of what stands at the lower one. */
+static int free_bottom(const struct app *app)
+{
+    if (!app->panel)
+        return app_eye(app).height;
+    const int sliders = app_slider(app, 0).y - MARGIN;
+    return app_has_plot(app) && app_plot(app).y < sliders ? app_plot(app).y : sliders;
+}
+
 bool app_help_alone(const struct app *app)
 {
     enum { ABOVE = 11 * MARGIN }; /* what is written */
     const struct render_text help = help_at(ABOVE);
-    const int bottom = !app->panel         ? app_eye(app).height
-                       : app_has_plot(app) ? app_plot(app).y
-                                           : app_slider(app, 0).y - MARGIN;
     int width, height;
     render_text_size(&help, &width, &height);
-    return app->hints.help && (help.y + height > bottom || help.x + width > app_text_width(app));
+    return app->hints.help && (help.y + height > free_bottom(app) || help.x + width > app_text_width(app));
+}
+
+/* What the run has told, as much of the latest as there is room for. */
+static void add_news(const struct app *app, struct page *page, int below)
+{
+    const int columns = (app_text_width(app) - 3 * MARGIN) / LETTER_WIDTH;
+    for (size_t first = 0; first < app->news.count; first++) {
+        char *text = room(page);
+        size_t used = 0;
+        for (size_t i = first; i < app->news.count && used < TEXT_SIZE; i++)
+            used += (size_t)snprintf(text + used, TEXT_SIZE - used, "%s%s", i > first ? "\n" : "",
+                                     app->news.items[i].line);
+        wrap(text, columns);
+        int width, height;
+        render_text_size(add(page, MARGIN, below, 1, cool, true), &width, &height);
+        if (used < TEXT_SIZE && below + height + MARGIN <= free_bottom(app))
+            return;
+        page->count--;
+    }
 }
 
 size_t app_texts(struct app *app, struct render_text texts[WINDOW_TEXTS_MAX])
@@ -215,5 +240,7 @@ size_t app_texts(struct app *app, struct render_text texts[WINDOW_TEXTS_MAX])
         add_legend(app, &page);
     if (app->hints.help)
         texts[page.count++] = help_at(below > 9 * MARGIN ? below : 9 * MARGIN);
+    else
+        add_news(app, &page, below);
     return page.count;
 }

@@ -65,6 +65,61 @@ static size_t find_grounds(struct app *app, struct panel_box *ground, size_t mos
     return count;
 }
 
+static const char long_line[] =
+    "at 0.1234 s: balloons[0]: fracture: cannot tear further here, where more than "
+    "64 triangles meet in one point: it ends";
+
+/* How many of the written texts have this in them; *last is the last such text. */
+static int count_texts(struct app *app, const char *words, struct render_text *last)
+{
+    static struct render_text texts[WINDOW_TEXTS_MAX];
+    const size_t written = app_texts(app, texts);
+    int count = 0;
+    for (size_t i = 0; i < written; i++)
+        if (strstr(texts[i].text, words)) {
+            *last = texts[i];
+            count++;
+        }
+    return count;
+}
+
+/* Those before the window read the last three for eight seconds in which time goes on, not while the keys are
+ * shown in their place, and not what is later than the state that is shown. */
+static void what_the_run_tells_is_on_the_picture(void **state)
+{
+    (void)state;
+    struct balloon b;
+    struct error err = {0};
+    struct app app = {.panel = true};
+    struct render_text text;
+    open_balloon(&b, 2, SETTINGS("time.integrator=symplectic-euler"));
+    assert_ok(live_open(&app.live, &b.sim, 64 << 20, &err), &err);
+    eye = (struct panel_box){0, 0, 800, 600};
+    for (int n = 0; n < 4; n++) {
+        char line[64];
+        snprintf(line, sizeof line, "at %d s: balloons[0]: gas: news %d", n, n);
+        app_hear(&app, n, line);
+        app_pass_news(&app, 1);
+    }
+    assert_int_equal(count_texts(&app, "news 3", &text), 1);
+    assert_non_null(strstr(text.text, "news 1"));
+    assert_null(strstr(text.text, "news 0"));
+    app_pass_news(&app, 5.5); /* the first of them is 8.5 s old */
+    assert_int_equal(count_texts(&app, "news 1", &text), 0);
+    app.hints.help = true;
+    assert_int_equal(count_texts(&app, "news 3", &text), 0);
+    app_pass_news(&app, 100);
+    app.hints.help = false;
+    assert_int_equal(count_texts(&app, "news 3", &text), 1);
+    b.sim.time = 2.5;
+    app_forget_news(&app);
+    assert_int_equal(count_texts(&app, "news 3", &text), 0);
+    assert_int_equal(count_texts(&app, "news 2", &text), 1);
+    free(app.boxes.items);
+    live_close(&app.live);
+    close_balloon(&b);
+}
+
 static void nothing_covers_anything_in_any_layout(void **state)
 {
     (void)state;
@@ -78,12 +133,15 @@ static void nothing_covers_anything_in_any_layout(void **state)
     snprintf(app.hints.message, sizeof app.hints.message,
              "stereo: side by side, for a viewer or parallel eyes");
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
-        for (int shown = 0; shown < 8; shown++) {
+        for (int shown = 0; shown < 16; shown++) {
             struct panel_box ground[16];
             eye = (struct panel_box){0, 0, sizes[i][0], sizes[i][1]};
             app.panel = shown & 1;
             app.stretch_colours = shown & 2;
             app.hints.help = shown & 4;
+            app.news.count = 0;
+            for (int n = 0; n < 3 && shown & 8; n++)
+                app_hear(&app, n, long_line);
             const size_t count = find_grounds(&app, ground, 16);
             assert_true(count > 0);
             for (size_t k = 0; k < count; k++)
@@ -100,6 +158,7 @@ static void nothing_covers_anything_in_any_layout(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_covers_anything_in_any_layout)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_the_run_tells_is_on_the_picture),
+                                       cmocka_unit_test(nothing_covers_anything_in_any_layout)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,41 @@
+/* What the run tells as it goes on, for those before the window. */
+#include "sim/window_app.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const double shown_seconds = 8;
+
+void app_hear(void *self, double time, const char *line)
+{
+    struct app *app = self;
+    struct window_news *news = &app->news;
+    if (news->count == WINDOW_NEWS)
+        memmove(news->items, news->items + 1, --news->count * sizeof *news->items);
+    struct window_news_item *item = &news->items[news->count++];
+    item->time = time;
+    item->left = shown_seconds;
+    snprintf(item->line, sizeof item->line, "%s", line);
+}
+
+void app_pass_news(struct app *app, double seconds)
+{
+    struct window_news *news = &app->news;
+    size_t kept = 0;
+    if (app->hints.help)
+        return;
+    for (size_t i = 0; i < news->count; i++) {
+        news->items[i].left -= seconds;
+        if (news->items[i].left > 0)
+            news->items[kept++] = news->items[i];
+    }
+    news->count = kept;
+}
+
+void app_forget_news(struct app *app)
+{
+    struct window_news *news = &app->news;
+    while (news->count && news->items[news->count - 1].time > app->live.sim->time)
+        news->count--;
+    app->telling.parts = 0;
+}
