@@ -137,16 +137,15 @@ static void measure_elastic(struct sim *sim, struct sim_measures *m)
             m->elastic_energy += membrane_elastic(sim, b);
 }
 
-/* Shear modulus times thickness: of springs that of a lattice of them, sqrt(3)/4 k (Seung & Nelson, Phys.
- * Rev. A 38 (1988) 1005). */
-static double stiffness_of(const struct sim *sim, const struct sim_balloon *b)
+double sim_stiffness(const struct sim *sim, const struct sim_balloon *b)
 {
     double sum = 0;
     if (b->membrane)
         return b->membrane->modulus * b->membrane->thickness;
     for (uint32_t e = b->edge_begin; e < b->edge_end; e++) /* what was cut has halves */
         sum += sim->current_spring_const[e];
-    return sqrt(3) / 4 * sum / (b->topology->old_edges - b->edge_begin);
+    const uint32_t whole = b->topology ? b->topology->old_edges : b->edge_end;
+    return sqrt(3) / 4 * sum / (whole - b->edge_begin);
 }
 
 static void measure_tears(struct sim *sim, struct sim_measures *m)
@@ -156,7 +155,7 @@ static void measure_tears(struct sim *sim, struct sim_measures *m)
         if (!b->fracture)
             continue;
         m->torn_length += b->topology->now.torn;
-        m->crack_energy += b->scene->fracture.toughness * b->radius * stiffness_of(sim, b) *
+        m->crack_energy += b->scene->fracture.toughness * b->radius * sim_stiffness(sim, b) *
                            b->topology->now.torn;
         for (uint32_t i = 0; i < b->fracture->now.tips; i++)
             m->crack_tips += b->fracture->tips[i].alive;

@@ -9,6 +9,10 @@
 double sim_area(const struct sim *sim, uint32_t triangle);
 double sim_rest_area(const struct sim *sim, uint32_t triangle);
 
+/* Shear modulus times thickness of a balloon's skin, force over length: of springs that of a lattice of them,
+ * sqrt(3)/4 k (Seung & Nelson, Phys. Rev. A 38 (1988) 1005). */
+double sim_stiffness(const struct sim *sim, const struct sim_balloon *balloon);
+
 /* Joins the active triangles that share an edge, in sim->piece. O(triangles). */
 void sim_find_pieces(struct sim *sim);
 

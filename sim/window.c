@@ -275,6 +275,7 @@ static enum status begin(struct app *app, struct sim *sim, struct error *err)
 {
     app->ball[3] = skins_ball(sim, app->ball);
     app->live.sim = sim;
+    app->rounding = app_find_rounding(sim);
     set_camera(app);
     enum status status = open_window(app, err);
     if (!status && app->options->log)

@@ -52,6 +52,7 @@ struct app {
     struct estimate *estimate;
     bool touched;    /* the user changed something: what the estimate measures is another run */
     double error;    /* by the estimate, in radii; NAN: none */
+    double rounding; /* energies up to this are none */
     double measured; /* app_seconds() when measures were taken, and how long that took */
     double measuring;
     struct sim_measures measures;
@@ -166,10 +167,16 @@ struct panel_box app_legend(const struct app *app);
 /* How wide texts at the upper border may be: up to the legend, where it is shown. */
 int app_text_width(const struct app *app);
 
+/* An axis that ends here or below it is of no pressure: it has been widened to be seen at all. */
+extern const double app_no_pressure;
+
 /* The ranges of the plot's axes; false: there is nothing to plot. */
 bool app_plot_ranges(const struct app *app, double stretch[2], double pressure[2]);
 
-/* window_text.c: what there is to be read; it is good until the next call. */
+/* window_text.c: which energies are rounding, from the skins at rest. */
+double app_find_rounding(const struct sim *sim);
+
+/* What there is to be read; it is good until the next call. */
 enum { WINDOW_TEXTS_MAX = 17 };
 size_t app_texts(struct app *app, struct render_text texts[WINDOW_TEXTS_MAX]);
 

@@ -34,6 +34,8 @@ enum {
  * tenth to ten times theirs. */
 static const double pressure_most = 2.5, other_pressure_most = 25, other_pump_most = 1;
 
+const double app_no_pressure = 2e-9;
+
 static const float dark[3] = {0.02f, 0.02f, 0.025f}, light[3] = {0.75f, 0.75f, 0.72f},
                    yellow[3] = {0.9f, 0.6f, 0.05f}, blue[3] = {0.15f, 0.35f, 0.9f};
 
@@ -221,7 +223,7 @@ static void add_sliders(struct app *app)
 static void widen(double range[2])
 {
     const double room = fmax(0.06 * (range[1] - range[0]),
-                             0.02 * fmax(fabs(range[0]), fabs(range[1])) + 1e-9);
+                             0.02 * fmax(fabs(range[0]), fabs(range[1])) + app_no_pressure / 2);
     range[0] -= room;
     range[1] += room;
 }

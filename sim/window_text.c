@@ -1,4 +1,5 @@
 /* What the live window says. */
+#include "sim/measure.h"
 #include "sim/window_app.h"
 
 #include <math.h>
@@ -69,6 +70,26 @@ static void describe_error(const struct app *app, char *text, size_t size)
         snprintf(text, size, "%.2g radii", app->error);
 }
 
+/* Laws of rubber are sums of terms of the size of the modulus, which end in 0 at rest but for their last
+ * bits: over all triangles those are some of what all skin holds at a strain of 1. */
+double app_find_rounding(const struct sim *sim)
+{
+    const double last_bits = 1e-14;
+    double held = 0;
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++) {
+        double area = 0;
+        for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++)
+            area += sim_rest_area(sim, t);
+        held += sim_stiffness(sim, b) * area;
+    }
+    return last_bits * held;
+}
+
+static double unless_rounding(const struct app *app, double energy)
+{
+    return fabs(energy) > app->rounding ? energy : 0;
+}
+
 static void describe_state(const struct app *app, char *text, size_t size)
 {
     const struct sim_measures *m = &app->measures;
@@ -82,8 +103,9 @@ static void describe_state(const struct app *app, char *text, size_t size)
     snprintf(text, size,
              "%.3f s  %s%s  %.0f steps/s  %.0f frames/s\nenergy %.4g moving + %.4g in the skin   error %s\n"
              "%u triangles in %u piece%s   effects: %s   F1 help",
-             app->live.sim->time, going, speed, app->live.rate, app->frames_rate, m->kinetic_energy,
-             m->elastic_energy, error, m->triangles_active, m->pieces, m->pieces == 1 ? "" : "s", active);
+             app->live.sim->time, going, speed, app->live.rate, app->frames_rate,
+             unless_rounding(app, m->kinetic_energy), unless_rounding(app, m->elastic_energy), error,
+             m->triangles_active, m->pieces, m->pieces == 1 ? "" : "s", active);
 }
 
 struct page {
@@ -145,7 +167,7 @@ static void add_plot(const struct app *app, struct page *page)
     add(page, plot.x + 4, plot.y + 4, 1, white, false);
     if (!app_plot_ranges(app, stretch, pressure))
         return;
-    snprintf(room(page), TEXT_SIZE, "%.3g", pressure[1]);
+    snprintf(room(page), TEXT_SIZE, "%.3g", pressure[1] > app_no_pressure ? pressure[1] : 0);
     add(page, plot.x + 4, plot.y + 4 + 2 * LETTER_HEIGHT, 1, warm, false);
     snprintf(room(page), TEXT_SIZE, "%.3g", stretch[0]);
     add(page, plot.x + 4, plot.y + plot.height - 4 - LETTER_HEIGHT, 1, warm, false);

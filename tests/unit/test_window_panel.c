@@ -120,6 +120,41 @@ static void what_the_run_tells_is_on_the_picture(void **state)
     close_balloon(&b);
 }
 
+/* At rest the terms of a law of rubber leave their last bits, of either sign: they are shown as nothing; what
+ * is stretched by a hundred-thousandth is not. */
+static void at_rest_there_is_no_energy(void **state)
+{
+    (void)state;
+#define RUBBER "balloons[0].membrane.shear_modulus=37", "balloons[0].membrane.thickness=.45"
+    static const char *const skins[][3] = {
+        {"balloons[0].point_mass=1", "balloons[0].spring=37", "balloons[0].damping=2"},
+        {RUBBER, "balloons[0].membrane.law=neo-hookean"},
+        {RUBBER, "balloons[0].membrane.law=mooney-rivlin"},
+        {RUBBER, "balloons[0].membrane.law=gent"}};
+    struct error err = {0};
+    struct render_text text;
+    eye = (struct panel_box){0, 0, 800, 600};
+    for (size_t i = 0; i < sizeof skins / sizeof *skins; i++) {
+        struct balloon b;
+        struct app app = {.panel = true, .stale = true};
+        open_balloon(&b, 4,
+                     SETTINGS(skins[i][0], skins[i][1], skins[i][2], "balloons[0].radius=45",
+                              "balloons[0].pressure=0"));
+        assert_ok(live_open(&app.live, &b.sim, 64 << 20, &err), &err);
+        app.rounding = app_find_rounding(&b.sim);
+        app.live.paused = true;
+        assert_int_equal(count_texts(&app, "energy 0 moving + 0 in the skin", &text), 1);
+        assert_int_equal(count_texts(&app, "e-", &text), 0);
+        for (uint32_t p = 0; p < b.sim.point_count; p++)
+            for (int k = 0; k < 3; k++)
+                b.sim.position[p][k] *= 1 + 1e-5;
+        app.stale = true;
+        assert_int_equal(count_texts(&app, "energy 0 moving + 0 in the skin", &text), 0);
+        live_close(&app.live);
+        close_balloon(&b);
+    }
+}
+
 static void nothing_covers_anything_in_any_layout(void **state)
 {
     (void)state;
@@ -159,6 +194,7 @@ static void nothing_covers_anything_in_any_layout(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_the_run_tells_is_on_the_picture),
+                                       cmocka_unit_test(at_rest_there_is_no_energy),
                                        cmocka_unit_test(nothing_covers_anything_in_any_layout)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
