@@ -92,20 +92,26 @@ static enum status open(struct sim *sim, struct error *err)
     return status;
 }
 
+static double parts_for(const struct sim *sim, double longest)
+{
+    return fmax(ceil(sim->whole_step / longest * (1 - 1e-12)), 1);
+}
+
 /* The fewest parts that are surely stable for a candidate, from the bound for the one that acts: what both
  * terms of the bound (guard.h) allow is in proportion to the limits. */
 static double fewest_parts(struct sim *sim, int i)
 {
     const struct integrator *to = candidates[i];
     if (isinf(to->oscillation_limit))
-        return 1;
+        return parts_for(sim, guard_following(sim).step);
     if (isinf(sim->acting->oscillation_limit)) {
         sim->acting = to;
         guard_bound_outdated(sim);
     }
     const double larger = fmin(to->oscillation_limit / sim->acting->oscillation_limit,
                                to->decay_limit / sim->acting->decay_limit);
-    return fmax(ceil(sim->whole_step / (guard_stable_step(sim) * larger) * (1 - 1e-12)), 1);
+    const double stable = guard_stable_step(sim) * larger;
+    return parts_for(sim, fmin(stable, guard_following(sim).step));
 }
 
 /* A candidate in a number of parts, with what its trial said, or before that with the least
@@ -288,7 +294,7 @@ static bool is_sound(const struct sim *sim)
 bool auto_describe(const struct sim *sim, uint64_t *choices, char *text, size_t size)
 {
     const struct auto_method *m = sim->method;
-    if (sim->integrator != &integrator_auto || m->memory.choices == *choices)
+    if (sim->integrator != &integrator_auto || m->memory.choices == *choices || isinf(m->memory.work))
         return false;
     *choices = m->memory.choices;
     const double fastest = 2 / m->memory.stable, parts = m->memory.parts;

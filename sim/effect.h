@@ -72,6 +72,9 @@ struct effect {
     /* EFFECT_FORCES: adds to rows (guard.h) by how much its forces on each point can change; guard_outdated()
      * when that is no longer true. NULL: they are constant, and do no work. */
     void (*bound)(const struct sim *sim, const struct sim_balloon *balloon, const struct guard_rows *rows);
+    /* EFFECT_FORCES: the longest step, s, that follows what it lets flow between balloons, whatever the
+     * method, by what the gas's bound has just found. NULL: nothing flows. */
+    double (*follow)(const struct sim *sim, const struct sim_balloon *balloon);
     bool damps; /* EFFECT_FORCES: its forces depend on velocities */
     const char *source;
 };

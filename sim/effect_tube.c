@@ -80,18 +80,19 @@ static void after(struct sim *sim, struct sim_balloon *b)
 }
 
 /* Steps that hold no flow back, with half of them to spare for what changes until the gas is asked again. */
-static void bound(const struct sim *sim, const struct sim_balloon *b, const struct guard_rows *rows)
+static double follow(const struct sim *sim, const struct sim_balloon *b)
 {
     const struct sim_balloon *to = &sim->balloons[b->scene->tube.to];
     const struct gas_drive drive[2] = {gas_drive_in_bound(sim, b), gas_drive_in_bound(sim, to)};
+    double longest = INFINITY;
     for (int i = 0; i < 2; i++) {
         const struct pair pair = {b->scene, &drive[i], &drive[1 - i], b->scene->gas.ambient};
         const double difference = laminar(&pair);
         if (drive[i].density > 0)
-            guard_follow(rows, b,
-                         fmin(drive[0].capacity, drive[1].capacity) / 8 * difference /
-                             flow(&pair, difference));
+            longest = fmin(longest, fmin(drive[0].capacity, drive[1].capacity) / 8 * difference /
+                                        flow(&pair, difference));
     }
+    return longest;
 }
 
 const struct effect effect_tube = {.name = "tube",
@@ -99,5 +100,5 @@ const struct effect effect_tube = {.name = "tube",
                                    .wanted = wanted,
                                    .apply = apply,
                                    .after = after,
-                                   .bound = bound,
+                                   .follow = follow,
                                    .source = "Saint-Venant & Wantzel 1839; Poiseuille 1840"};

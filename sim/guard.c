@@ -129,10 +129,76 @@ static void set_parts(struct sim *sim, uint32_t parts)
     sim->changed = true;
 }
 
+/* The fewest equal parts that are stable, beyond rounding. */
+static double parts_needed(const struct sim *sim)
+{
+    if (sim->integrator->flags & INTEGRATOR_ADAPTIVE)
+        return 1;
+    return fmax(ceil(sim->whole_step / sim->guard->memory.stable * (1 - 1e-12)), 1);
+}
+
+/* In words: what asks for most of the bound, in a balloon. */
+static const char *cause_of(const struct sim *sim, const struct sim_balloon *b)
+{
+    const uint32_t cause = sim->guard->memory.cause;
+    if (cause >= GUARD_EFFECTS && cause - GUARD_EFFECTS < sim->hook_count[EFFECT_FORCES]) {
+        const char *key = sim->hooks[EFFECT_FORCES][cause - GUARD_EFFECTS].effect->name;
+        return strcmp(key, "pressure_on") ? key : "pressure";
+    }
+    if (cause == GUARD_SPRINGS)
+        return b->membrane ? "membrane" : "springs";
+    if (cause == GUARD_DAMPERS)
+        return b->membrane ? "membrane's viscosity" : "dampers";
+    return "pressure";
+}
+
+void guard_describe_follow(const struct sim *sim, const struct guard_follow *follow, char *text, size_t size)
+{
+    snprintf(
+        text, size,
+        "steps up to %.3g follow what flows in the tube of balloons[%zu], which evens pressures out so fast; a "
+        "smaller tube.area would ask for less",
+        follow->step, (size_t)(follow->balloon - sim->balloons));
+}
+
+static void describe(struct sim *sim, bool is_refused, char *text, size_t size)
+{
+    const struct guard_memory *memory = &sim->guard->memory;
+    const double step = sim->whole_step, stable = guard_stable_step(sim), parts = parts_needed(sim);
+    const char *method = sim->acting->name;
+    if (!(stable < INFINITY)) {
+        snprintf(text, size, "every step is stable for %s", method);
+        return;
+    }
+    size_t b = 0;
+    while (b + 1 < sim->balloon_count && memory->point >= sim->balloons[b].point_end)
+        b++;
+    int used = 0;
+    if (parts > 1 && parts <= GUARD_PARTS_MAX && !is_refused && sim->scene->time.guard == SCENE_GUARD_SUBSTEP)
+        used = snprintf(text, size, "time.step %g is split in %.0f: ", step, parts);
+    else if (parts > 1)
+        used = snprintf(text, size, "time.step %g is too large%s: ", step,
+                        sim->scene->time.guard == SCENE_GUARD_SUBSTEP ? " to be split" : "");
+    if (memory->cause == GUARD_TUBE) {
+        const struct guard_follow follow = {stable, &sim->balloons[b]};
+        guard_describe_follow(sim, &follow, text + used, size - (size_t)used);
+        return;
+    }
+    snprintf(
+        text + used, size - (size_t)used,
+        "steps up to %.3g are surely stable for %s; most of that is for the %s at point %u of balloons[%zu]",
+        stable, method, cause_of(sim, &sim->balloons[b]), reorder_name(&sim->balloons[b], memory->point), b);
+}
+
+void guard_describe(struct sim *sim, char *text, size_t size)
+{
+    describe(sim, false, text, size);
+}
+
 static enum status refuse(struct sim *sim, struct error *err)
 {
     char text[256];
-    guard_describe(sim, text, sizeof text);
+    describe(sim, true, text, sizeof text);
     return error_set(err, STATUS_DIVERGED, "%s: refused at time %g: %s", sim->scene->path, sim->time, text);
 }
 
@@ -140,14 +206,6 @@ enum status guard_longest_step(struct sim *sim, double *longest, struct error *e
 {
     *longest = sim->scene->time.guard == SCENE_GUARD_OFF ? INFINITY : guard_stable_step(sim);
     return sim->whole_step <= *longest * GUARD_PARTS_MAX ? STATUS_OK : refuse(sim, err);
-}
-
-/* The fewest equal parts that are stable, beyond rounding. */
-static double parts_needed(const struct sim *sim)
-{
-    if (sim->integrator->flags & INTEGRATOR_ADAPTIVE)
-        return 1;
-    return fmax(ceil(sim->whole_step / sim->guard->memory.stable * (1 - 1e-12)), 1);
 }
 
 /* Within a step that is split already: what was stable at its start no longer is, since speeds
@@ -201,51 +259,4 @@ enum status guard_check(struct sim *sim, struct error *err)
         memory->reach += fmax(memory->push - before, 0) * sim->taken;
     }
     return energy <= most_energy(memory) ? STATUS_OK : sim_diverged(sim, energy, err);
-}
-
-/* In words: what asks for most of the bound, in a balloon. */
-static const char *cause_of(const struct sim *sim, const struct sim_balloon *b)
-{
-    const uint32_t cause = sim->guard->memory.cause;
-    if (cause >= GUARD_EFFECTS && cause - GUARD_EFFECTS < sim->hook_count[EFFECT_FORCES]) {
-        const char *key = sim->hooks[EFFECT_FORCES][cause - GUARD_EFFECTS].effect->name;
-        return strcmp(key, "pressure_on") ? key : "pressure";
-    }
-    if (cause == GUARD_SPRINGS)
-        return b->membrane ? "membrane" : "springs";
-    if (cause == GUARD_DAMPERS)
-        return b->membrane ? "membrane's viscosity" : "dampers";
-    return "pressure";
-}
-
-void guard_describe(struct sim *sim, char *text, size_t size)
-{
-    const struct guard_memory *memory = &sim->guard->memory;
-    const double step = sim->whole_step, stable = guard_stable_step(sim), parts = parts_needed(sim);
-    const char *method = sim->acting->name;
-    if (!(stable < INFINITY)) {
-        snprintf(text, size, "every step is stable for %s", method);
-        return;
-    }
-    size_t b = 0;
-    while (b + 1 < sim->balloon_count && memory->point >= sim->balloons[b].point_end)
-        b++;
-    int used = 0;
-    if (parts > 1 && parts <= GUARD_PARTS_MAX && sim->scene->time.guard == SCENE_GUARD_SUBSTEP)
-        used = snprintf(text, size, "time.step %g is split in %.0f: ", step, parts);
-    else if (parts > 1)
-        used = snprintf(text, size, "time.step %g is too large%s: ", step,
-                        sim->scene->time.guard == SCENE_GUARD_SUBSTEP ? " to be split" : "");
-    if (memory->cause == GUARD_TUBE) {
-        snprintf(
-            text + used, size - (size_t)used,
-            "steps up to %.3g follow what flows in the tube of balloons[%zu], which evens pressures out so fast; a "
-            "smaller tube.area would ask for less",
-            stable, b);
-        return;
-    }
-    snprintf(
-        text + used, size - (size_t)used,
-        "steps up to %.3g are surely stable for %s; most of that is for the %s at point %u of balloons[%zu]",
-        stable, method, cause_of(sim, &sim->balloons[b]), reorder_name(&sim->balloons[b], memory->point), b);
 }

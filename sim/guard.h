@@ -38,19 +38,13 @@ struct guard_rows {
     double *stiffness; /* sums of |dF/dx| over all that the force on the point depends on */
     double *damping;   /* of |dF/dv| */
     double *push;      /* the largest force that can do work on the point out of nothing, as pressure does */
-    struct guard_follow {
-        double step; /* s: the longest that follows what flows between balloons; INFINITY: any does */
-        const struct sim_balloon *balloon;
-    } * follow;
 };
 
-/* For such an effect of a balloon: a longer step cannot follow it, whatever the method. */
-static inline void guard_follow(const struct guard_rows *asked, const struct sim_balloon *balloon,
-                                double step)
-{
-    if (step < asked->follow->step)
-        *asked->follow = (struct guard_follow){step, balloon};
-}
+/* What asks for the shortest step of all that flows between balloons. */
+struct guard_follow {
+    double step; /* s: the longest that follows it; INFINITY: any does */
+    const struct sim_balloon *balloon;
+};
 
 /* A step may be split in no more parts than this, some million: by the guard, or by a method that solves
  * equations and finds no solution over longer ones, in halves of halves. */
@@ -72,6 +66,13 @@ void guard_cut(struct sim *sim, const struct sim_balloon *balloon, uint32_t poin
 
 /* The largest step that is surely stable as things are: INFINITY when any is, 0 when none is. */
 double guard_stable_step(struct sim *sim);
+
+/* What flows between balloons asks of a step, whatever the method, by what the last bound took pressures for.
+ * Nothing that the future depends on changes. */
+struct guard_follow guard_following(const struct sim *sim);
+
+/* In words: "steps up to 1e-06 follow what flows in ...". */
+void guard_describe_follow(const struct sim *sim, const struct guard_follow *follow, char *text, size_t size);
 
 /* The longest step that a method which chooses its own may try: it goes by how the points move, and sees
  * nothing of what flows between balloons. INFINITY where nothing does, and with time.guard = "off".

@@ -76,12 +76,10 @@ static void note_asker(const struct guard *guard, struct asker *a, uint32_t caus
     }
 }
 
-/* What acts on single points: pressure and effects. Returns what these ask of a step besides. */
-static struct guard_follow find_rows(struct sim *sim, struct asker *asker)
+/* What acts on single points: pressure and effects. */
+static void find_rows(struct sim *sim, struct asker *asker)
 {
-    struct guard_follow follow = {INFINITY, NULL};
-    struct guard_rows rows = sim->guard->rows;
-    rows.follow = &follow;
+    const struct guard_rows rows = sim->guard->rows;
     find_pressure(sim, &rows);
     note_asker(sim->guard, asker, GUARD_PRESSURE);
     for (size_t i = 0; i < sim->hook_count[EFFECT_FORCES]; i++) {
@@ -95,7 +93,6 @@ static struct guard_follow find_rows(struct sim *sim, struct asker *asker)
         for (uint32_t p = b->point_begin; p < b->point_end; p++)
             push += rows.push[p] * rows.push[p] / sim->mass[p];
     sim->guard->memory.push = sqrt(push);
-    return follow;
 }
 
 /* The unsigned Laplacians of springs and of dampers, times x. */
@@ -277,11 +274,24 @@ static void find_sharpest(struct sim *sim, const struct limits *l)
     memory->sharp = good ? fmax(memory->sharp, memory->stable) : memory->stable;
 }
 
+struct guard_follow guard_following(const struct sim *sim)
+{
+    struct guard_follow follow = {INFINITY, NULL};
+    for (size_t i = 0; i < sim->hook_count[EFFECT_FORCES]; i++) {
+        const struct effect_hook *hook = &sim->hooks[EFFECT_FORCES][i];
+        const double step = hook->effect->follow ? hook->effect->follow(sim, hook->balloon) : INFINITY;
+        if (step < follow.step)
+            follow = (struct guard_follow){step, hook->balloon};
+    }
+    return follow;
+}
+
 void guard_find_bound(struct sim *sim)
 {
     struct guard_memory *memory = &sim->guard->memory;
     const struct limits l = limits_of(sim);
-    const struct guard_follow follow = find_rows(sim, NULL);
+    find_rows(sim, NULL);
+    const struct guard_follow follow = guard_following(sim);
     find_sharpest(sim, &l);
     if (memory->cause == GUARD_PRESSURE) {
         struct asker asker = {

@@ -152,6 +152,36 @@ static void a_trial_ends_where_the_guard_would(void **state)
     close_balloon(&b);
 }
 
+/* What the guard splits any step for is part of every method's price: one that is stable at any step took the
+ * whole of it in its trial, and a hundred times its work in each of the parts. */
+static void a_wide_tube_splits_steps_of_every_method(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct scene scene = {0};
+    struct mesh meshes[2] = {0};
+    struct sim sim = {0};
+    static const char *const changes[] = {"balloons[1].mesh=sphere",   "balloons[0].gas.ambient=6",
+                                          "balloons[1].gas.ambient=6", "balloons[1].gas.fill=1.2",
+                                          "balloons[0].tube.to=1",     "balloons[0].tube.area=1e9",
+                                          "time.integrator=auto",      "time.step=0.005",
+                                          "time.guard=substep",        "balloons[1].position=[200, 0, 0]"};
+    assert_ok(scene_from_mesh("sphere", &scene, &err), &err);
+    for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++)
+        assert_ok(scene_set(&scene, changes[i], &err), &err);
+    for (int i = 0; i < 2; i++)
+        shape_icosphere(0, &meshes[i]);
+    assert_ok(sim_open(&sim, &scene, meshes, 1, &err), &err);
+    const double parts = ceil(sim.whole_step / guard_following(&sim).step);
+    assert_ok(sim_step(&sim, &err), &err);
+    print_message("# %.0f parts for the tube; %s in %u\n", parts, sim.acting->name, sim.substeps);
+    assert_true(parts > 100 && sim.wanted_substeps >= parts && sim.wanted_substeps < 8 * parts);
+    sim_clear(&sim);
+    for (int i = 0; i < 2; i++)
+        mesh_clear(&meshes[i]);
+    scene_clear(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -162,6 +192,7 @@ int main(void)
         cmocka_unit_test(a_choice_takes_no_more_than_a_few_steps),
         cmocka_unit_test(trials_leave_no_trace),
         cmocka_unit_test(a_trial_ends_where_the_guard_would),
+        cmocka_unit_test(a_wide_tube_splits_steps_of_every_method),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
