@@ -34,14 +34,13 @@ static bool method_keeps_the_step(const struct scene *scene, size_t number)
     return !is_method(scene, names, 1) && !method_keeps_a_tolerance(scene, number);
 }
 
-/* rk-adaptive goes by it where gas flows between balloons (guard.h). */
+/* All go by it where gas flows between balloons (guard.h). */
 static bool method_asks_no_guard(const struct scene *scene, size_t number)
 {
-    static const char *const names[] = {"rk-adaptive"};
     bool tube = false;
     for (size_t i = 0; i < scene->balloon_count; i++)
         tube |= scene->balloons[i].tube.on;
-    return method_keeps_a_tolerance(scene, number) && !(tube && is_method(scene, names, 1));
+    return method_keeps_a_tolerance(scene, number) && !tube;
 }
 
 static bool view_is_mono(const struct scene *scene, size_t number)

@@ -14,6 +14,7 @@
  * the steps since then, bit by bit.
  */
 #include "sim/cvode_solver.h"
+#include "sim/guard.h"
 #include "sim/ledger.h"
 #include "sim/methods.h"
 #include "sim/vectors.h"
@@ -226,7 +227,11 @@ static void record(struct sim *sim)
 static enum status advance(struct sim *sim, double longest, struct error *err)
 {
     struct cvode *cvode = sim->method;
-    (void)longest; /* the library knows its longest step, and where to stop */
+    double allowed; /* the library sees to that, and knows its longest step and where to stop */
+    (void)longest;
+    const enum status status = guard_longest_step(sim, &allowed, err);
+    if (status)
+        return status;
     cvode->message[0] = 0;
     int code = prepare(sim);
     const double before = cvode->time;

@@ -3,6 +3,7 @@
 #include "sim/auto.h"
 #include "sim/guard.h"
 
+#include <math.h>
 #include <stdio.h>
 
 enum { LINE_SIZE = 512 };
@@ -27,10 +28,43 @@ static void note_method(struct news *news, struct sim *sim)
     }
 }
 
+/* Says that a method which chooses its steps takes such short ones that it will hardly see the end, and again
+ * when ten times as many are left. Some in a row count: the first few are always short, and one before an
+ * event. */
+static void note_pace(struct news *news, const struct sim *sim)
+{
+    enum { IN_A_ROW = 100, MANY = 1000000 };
+    if (!(sim->integrator->flags & INTEGRATOR_ADAPTIVE))
+        return;
+    const double steps = (double)sim->steps - (double)news->pace.step; /* fewer than none: gone back */
+    if (steps >= 0 && steps < IN_A_ROW)
+        return;
+    const double mean = (sim->time - news->pace.time) / steps,
+                 rest = (sim->scene->time.end - sim->time) / mean;
+    news->pace.step = sim->steps;
+    news->pace.time = sim->time;
+    if (!(steps <= 2 * IN_A_ROW && rest >= MANY && rest >= 10 * news->pace.rest))
+        return;
+    char text[256], line[LINE_SIZE];
+    snprintf(text, sizeof text,
+             "time.tolerance=%g and the forces ask for them; stiff ones ask nothing of "
+             "time.integrator=bdf2",
+             sim->scene->time.tolerance);
+    const struct guard_follow follow = guard_following(sim);
+    if (follow.step < INFINITY)
+        guard_describe_follow(sim, &follow, text, sizeof text);
+    snprintf(line, sizeof line,
+             "at %.4g s: %s takes steps of %.2g s, and %.2g of them are left to time.end: %s", sim->time,
+             sim->integrator->name, mean, rest, text);
+    note(news, sim->time, line);
+    news->pace.rest = rest;
+}
+
 void news_note(struct news *news, struct sim *sim)
 {
     char line[LINE_SIZE];
     note_method(news, sim);
+    note_pace(news, sim);
     for (size_t i = 0; i < sim->news_count; i++) {
         const struct sim_news *told = &sim->news[i];
         snprintf(line, sizeof line, "at %.4g s: balloons[%zu]: %s: %s", told->time, told->balloon,

@@ -10,11 +10,17 @@ struct news {
     void *self;
     uint32_t parts;   /* of a split step, when that was said; 0: not yet */
     uint64_t choices; /* of methods, when they were said */
+    struct {
+        uint64_t step; /* number of the first of some in a row, */
+        double time;   /* s: when it began, */
+        double rest;   /* and how many were left when that was said; 0: not yet */
+    } pace;            /* of a method that chooses its steps */
 };
 
 /* Notes on stderr, after a step: that steps are split, and why, and again when that is in ten times as many
- * parts, or which method has been chosen; what effects have told since it was asked last: that they wake, go
- * to sleep, or can do no more. *news begins with nothing said. */
+ * parts, or which method has been chosen, or that it takes steps too short to see the end; what effects have
+ * told since it was asked last: that they wake, go to sleep, or can do no more. *news begins with nothing
+ * said. */
 void news_note(struct news *news, struct sim *sim);
 
 #endif

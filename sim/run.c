@@ -3,6 +3,7 @@
 #include "common/file.h"
 #include "common/plot.h"
 #include "common/vec3.h"
+#include "sim/guard.h"
 #include "sim/interrupt.h"
 #include "sim/ledger.h"
 #include "sim/nearest_break.h"
@@ -34,6 +35,19 @@ static double now(void)
     struct timespec time;
     clock_gettime(CLOCK_MONOTONIC, &time);
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+/* Says beforehand that gas flows too fast for any method, since trials of each take long then. */
+static void note_tube(const struct sim *sim)
+{
+    const struct guard_follow follow = guard_following(sim);
+    const double parts = ceil(sim->whole_step / follow.step);
+    char text[256];
+    if (!sim->integrator->choose || sim->scene->time.guard != SCENE_GUARD_SUBSTEP || parts < 100 ||
+        parts > GUARD_PARTS_MAX)
+        return;
+    guard_describe_follow(sim, &follow, text, sizeof text);
+    command_note("time.step %g is split in %.0f or more: %s", sim->whole_step, parts, text);
 }
 
 static enum status keep(struct run *run, struct error *err)
@@ -111,6 +125,8 @@ static enum status step_to_end(struct run *run, struct error *err)
     struct sim *sim = run->sim;
     const double end = sim->scene->time.end, steps = end / sim->step;
     enum status status = outputs_show(&run->outputs, sim, err);
+    if (!status)
+        note_tube(sim);
     run->began = run->kept = now();
     char size[96];
     snprintf(size, sizeof size, "%u triangles, to %g s in %.3g steps", sim->triangle_count, end, steps);

@@ -22,3 +22,26 @@ one_message # nor that time.guard does nothing
 dense='--set balloons[0].gas.ambient=6 --set balloons[1].gas.ambient=6'
 refused 3 'tube.cfg: refused at time 0: steps up to .* follow what flows in the tube of balloons\[0\]' \
     balloon-sim tube.cfg --log tube.tsv $dense
+
+# whatever the method: "auto" tries none that could not be split either, and CVODE says so where it is there
+refused 3 'tube.cfg: refused at time 0: time.step 0.005 is too large to be split: steps up to .* follow what flows' \
+    balloon-sim tube.cfg --log tube.tsv $dense --set time.integrator=auto
+code=0
+balloon-sim tube.cfg --log tube.tsv $dense --set time.integrator=cvode-bdf >.stdout 2>.stderr || code=$?
+[ "$code" = 1 ] && stderr_has 'libsundials-dev' || [ "$code" = 3 ] || fail "exit $code, wanted 3"
+[ "$code" = 1 ] || stderr_has 'tube.cfg: refused at time 0: steps up to .* follow what flows in the tube of balloons\[0\]'
+one_message
+
+# steps so short that a run would hardly end are told with their reason, once
+balloon-sim tube.cfg --log tube.tsv $dense --set 'balloons[0].tube.area=1e9' --set time.end=10 >.stdout 2>.stderr &
+job=$!
+for wait in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
+    grep -q . .stderr && break
+    sleep 0.25
+done
+sleep 0.2
+kill $job
+wait $job || true
+command_line='balloon-sim tube.cfg, of a wide tube'
+stderr_has 'at .* s: rk-adaptive takes steps of [0-9.]+e-0[6-9] s, and .*e\+[01][0-9] of them are left to time.end: steps up to .* follow what flows in the tube of balloons\[0\]'
+[ "$(grep -c 'takes steps of' .stderr)" = 1 ] || fail "told $(grep -c 'takes steps of' .stderr) times of short steps"
