@@ -17,6 +17,9 @@ struct file_out {
     char *temporary; /* NULL where the target is written in place */
 };
 
+/* What has no size beforehand, a pipe mostly, need not end either. */
+static const size_t unknown_size_max = (size_t)1 << 29;
+
 struct signature {
     const void *bytes;
     size_t size;
@@ -40,6 +43,14 @@ static enum status read_stream(FILE *stream, const char *path, const struct sign
         size += got;
         if (got == 0 || size < capacity - 1 || is_something_else(data, size, signature))
             break;
+        if (capacity > unknown_size_max / 2) {
+            free(data);
+            return error_set(
+                err, STATUS_FILE,
+                "%s: has no end within %zu MB, and no more is read of a pipe; save what is larger "
+                "as a file",
+                path, unknown_size_max >> 20);
+        }
         unsigned char *larger = capacity <= SIZE_MAX / 2 ? realloc(data, 2 * capacity) : NULL;
         if (!larger)
             free(data);

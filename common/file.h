@@ -26,8 +26,8 @@ struct bytes {
     size_t size;
 };
 
-/* Reads all of path. On failure *out is as it was. Errors: STATUS_FILE, also of a device, which need not end;
- * STATUS_NO_MEMORY. */
+/* Reads all of path. On failure *out is as it was. Errors: STATUS_FILE, also of a device, which need not end,
+ * and of a pipe that gives more than half a gigabyte; STATUS_NO_MEMORY. */
 enum status file_read(const char *path, struct bytes *out, struct error *err);
 
 /* The same of a format that begins with a signature. What does not is read no further than its first block,

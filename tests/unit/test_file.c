@@ -3,6 +3,7 @@
 #include "common/file.h"
 
 #include <dirent.h>
+#include <fcntl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -161,6 +162,29 @@ static void a_pipe_of_something_else_is_left_at_once(void **state)
     bytes_clear(&bytes);
 }
 
+/* Nor need one that begins as it must, as text does: it is read no further than any text goes. */
+static void a_pipe_without_an_end_is_refused(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct bytes bytes = {0};
+    int ended;
+    assert_int_equal(mkfifo("flood", 0600), 0);
+    const pid_t writer = fork();
+    if (writer == 0) {
+        static const char text[1 << 16] = "v 0 0 0";
+        const int pipe = open("flood", O_WRONLY);
+        for (int i = 0; i < 1 << 16; i++) /* 4 GB */
+            if (write(pipe, text, sizeof text) < 0)
+                break;
+        _exit(0);
+    }
+    assert_refused(file_read("flood", &bytes, &err), STATUS_FILE, "flood: has no end within 512 MB", &err);
+    assert_null(bytes.data);
+    assert_int_equal(waitpid(writer, &ended, 0), writer);
+    assert_true(WIFSIGNALED(ended));
+}
+
 /* Most have no end. The one that is empty is as good as a file. */
 static void a_device_is_refused_at_once(void **state)
 {
@@ -196,6 +220,7 @@ int main(void)
         cmocka_unit_test(a_full_disk_is_reported),
         cmocka_unit_test(a_pipe_is_read_to_its_end),
         cmocka_unit_test(a_pipe_of_something_else_is_left_at_once),
+        cmocka_unit_test(a_pipe_without_an_end_is_refused),
         cmocka_unit_test(a_device_is_refused_at_once),
         cmocka_unit_test(a_socket_is_refused_and_stays),
         cmocka_unit_test(missing_folders_and_folders_are_refused_by_name),
