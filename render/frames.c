@@ -219,6 +219,7 @@ enum status frames_open(const struct frames_options *options, struct frames **re
     if (!frames)
         return error_no_memory(err, "the frames");
     frames->options = *options;
+    frames->sheet.counted = options->counted;
     pthread_mutex_init(&frames->lock, NULL);
     pthread_cond_init(&frames->change, NULL);
     if (!copy_name(&frames->folder, options->folder, NULL) ||
@@ -276,6 +277,11 @@ static void enqueue(struct frames *frames, const struct image *image, double tim
     frames->added++;
     pthread_cond_broadcast(&frames->change);
     pthread_mutex_unlock(&frames->lock);
+}
+
+void frames_count(struct frames *frames, double count)
+{
+    frames->sheet.count_now = count;
 }
 
 enum status frames_add(struct frames *frames, const struct image *image, double time, struct error *err)

@@ -17,9 +17,10 @@
 #include "render/image.h"
 
 struct frames_options {
-    const char *folder; /* frame_0000.png, frame_0001.png, ... are written here; made if missing; or NULL */
-    const char *movie;  /* .mp4, .webm or .gif, through the program ffmpeg; or NULL */
-    const char *sheet;  /* PNG of twelve moments, evenly spaced in how much the picture changes; or NULL */
+    const char *folder;  /* frame_0000.png, frame_0001.png, ... are written here; made if missing; or NULL */
+    const char *movie;   /* .mp4, .webm or .gif, through the program ffmpeg; or NULL */
+    const char *sheet;   /* PNG of twelve moments (sheet.h); or NULL */
+    const char *counted; /* what frames_count() counts for the sheet, as "edges broken", borrowed; or NULL */
     /* "left" or "right": every name ends in -left or -right, before its extension; or NULL. */
     const char *eye;
     size_t first; /* number of the first PNG */
@@ -36,6 +37,10 @@ struct frames;
  * cannot be made, is a file or cannot be written), STATUS_USAGE (the movie's extension), STATUS_RESOURCE
  * (ffmpeg is not installed or lacks an encoder), STATUS_NO_MEMORY. Nothing is left behind. */
 enum status frames_open(const struct frames_options *options, struct frames **frames, struct error *err);
+
+/* So much of what is counted has happened in the pictures that follow: the sheet shows most of its moments
+ * while that grows. */
+void frames_count(struct frames *frames, double count);
 
 /* Adds a copy of the next picture, shown at `time` (seconds, for the sheet's labels and the PNGs' text). All
  * pictures have the first one's size (else STATUS_RANGE). Errors are those of writing; after one no more are

@@ -3,6 +3,7 @@
 #include "render/font.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -59,13 +60,28 @@ static double difference(const struct image *a, const struct image *b)
     return (double)sum / (double)count;
 }
 
+/* Of the way from the first picture to the last: most of what moves after a burst is debris that leaves. */
+static const double counted_share = 0.75;
+
+/* How far along the way a moment is, from 0 to 1. */
+static double way_of(const struct sheet *sheet, int moment)
+{
+    const struct sheet_moment *first = &sheet->moments[0], *last = &sheet->moments[sheet->count - 1],
+                              *m = &sheet->moments[moment];
+    const double change = last->change > 0 ? m->change / last->change : 0;
+    const double counted = last->counted - first->counted;
+    return counted > 0
+               ? counted_share * (m->counted - first->counted) / counted + (1 - counted_share) * change
+               : change;
+}
+
 /* Drops the inner moment whose going leaves the smallest step. */
 static void drop_one(struct sheet *sheet)
 {
     int dropped = 1;
     double least = INFINITY;
     for (int i = 1; i + 1 < sheet->count; i++) {
-        double step = sheet->moments[i + 1].change - sheet->moments[i - 1].change;
+        const double step = way_of(sheet, i + 1) - way_of(sheet, i - 1);
         if (step < least) {
             least = step;
             dropped = i;
@@ -79,7 +95,7 @@ static void drop_one(struct sheet *sheet)
 
 enum status sheet_add(struct sheet *sheet, const struct image *image, double time, struct error *err)
 {
-    struct sheet_moment moment = {.time = time};
+    struct sheet_moment moment = {.time = time, .counted = sheet->count_now};
     enum status status = reduce(image, &moment.image, err);
     if (status)
         return status;
@@ -99,9 +115,8 @@ int sheet_choose(const struct sheet *sheet, int chosen[SHEET_MOMENTS])
     int next = 0;
     for (int k = 0; k < count; k++) {
         int last = sheet->count - (count - k); /* leaves one for each that follows */
-        double wanted = sheet->moments[sheet->count - 1].change * k / (count > 1 ? count - 1 : 1);
-        while (next < last &&
-               fabs(sheet->moments[next + 1].change - wanted) <= fabs(sheet->moments[next].change - wanted))
+        const double wanted = (double)k / (count > 1 ? count - 1 : 1);
+        while (next < last && fabs(way_of(sheet, next + 1) - wanted) <= fabs(way_of(sheet, next) - wanted))
             next++;
         chosen[k] = next++;
     }
@@ -122,16 +137,41 @@ int sheet_decimals(const struct sheet *sheet, const int chosen[], int count)
     return (int)fmin(fmax(decimals, 0), 6);
 }
 
-static void draw_tile(struct image *out, const struct sheet_moment *moment, int left, int top, int decimals)
+static int text_width(const char *text, int scale)
+{
+    return ((int)strlen(text) * (FONT_WIDTH + 1) + 1) * scale;
+}
+
+/* Text at the lower border of a tile, on a lighter ground: debris may be anywhere. */
+static void draw_text(struct image *out, int left, int bottom, int scale, const char *text)
+{
+    const int right = left + text_width(text, scale), top = bottom - (FONT_LINE + 2) * scale;
+    for (int y = top < 0 ? 0 : top; y < bottom; y++)
+        for (int x = left; x < right && x < out->width; x++)
+            for (int c = 0; c < 3; c++) {
+                unsigned char *value =
+                    &out->rgb[3 * ((size_t)y * (size_t)out->width + (size_t)x) + (size_t)c];
+                *value = (unsigned char)((*value + 2 * 0xd8) / 3);
+            }
+    label_draw(out, left + scale, top + scale, scale, text);
+}
+
+static void draw_tile(struct image *out, const struct sheet *sheet, const struct sheet_moment *moment,
+                      int left, int top, int decimals)
 {
     const struct image *tile = &moment->image;
     for (int y = 0; y < tile->height; y++)
         memcpy(out->rgb + 3 * ((size_t)(top + y) * (size_t)out->width + (size_t)left),
                tile->rgb + 3 * (size_t)tile->width * (size_t)y, 3 * (size_t)tile->width);
-    char text[64];
-    snprintf(text, sizeof text, fabs(moment->time) < 1e6 ? "%.*f s" : "%.*e s", decimals, moment->time);
-    int scale = tile->height < 120 ? 1 : 2;
-    label_draw(out, left + 4 * scale, top + tile->height - (FONT_LINE + 4) * scale, scale, text);
+    char time[64], count[128];
+    const int scale = tile->height < 120 ? 1 : 2, bottom = top + tile->height - 3 * scale;
+    snprintf(time, sizeof time, fabs(moment->time) < 1e6 ? "%.*f s" : "%.*e s", decimals, moment->time);
+    draw_text(out, left + 3 * scale, bottom, scale, time);
+    if (!sheet->counted || !(moment->counted > 0))
+        return;
+    const int beside = left + 6 * scale + text_width(time, scale);
+    snprintf(count, sizeof count, "%.0f %s", moment->counted, sheet->counted);
+    draw_text(out, beside, bottom, 1, count);
 }
 
 enum status sheet_draw(const struct sheet *sheet, struct image *out, struct error *err)
@@ -147,7 +187,7 @@ enum status sheet_draw(const struct sheet *sheet, struct image *out, struct erro
         return status;
     memset(out->rgb, 0xff, 3 * (size_t)out->width * (size_t)out->height);
     for (int k = 0; k < count; k++)
-        draw_tile(out, &sheet->moments[chosen[k]], GAP + k % columns * (width + GAP),
+        draw_tile(out, sheet, &sheet->moments[chosen[k]], GAP + k % columns * (width + GAP),
                   GAP + k / columns * (height + GAP), decimals);
     return STATUS_OK;
 }

@@ -1,8 +1,10 @@
 /*
  * A contact sheet: twelve moments of a run on one picture, 4 x 3, evenly spaced in how much the picture
- * changes, each labelled with its time.
+ * changes, each labelled with its time. Where something happens that is counted, three quarters of the way
+ * are even in that count instead, and labels tell it.
  *
- *     struct sheet sheet = {0};
+ *     struct sheet sheet = {.counted = "edges broken"};
+ *     sheet.count_now = 17;
  *     if (sheet_add(&sheet, &image, time, err)) ...       for each picture, all of one size
  *     if (sheet_draw(&sheet, &image_out, err)) ...
  *     sheet_clear(&sheet);
@@ -21,11 +23,14 @@ struct sheet_moment {
     struct image image; /* reduced to a tile of the sheet */
     double time;
     double change; /* of the picture since the first: sum of mean absolute differences, in 1/255 */
+    double counted;
 };
 
 struct sheet {
     struct sheet_moment moments[SHEET_KEPT + 1]; /* the last is always the last picture */
     int count;
+    const char *counted; /* what is counted, borrowed; NULL: nothing */
+    double count_now;    /* of that, in the next picture; it never falls */
 };
 
 /* Errors: STATUS_NO_MEMORY. */

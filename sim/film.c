@@ -51,6 +51,7 @@ static enum status open_frames(struct film *film, const struct scene *scene,
     const bool separate = scene->view.stereo == SCENE_SEPARATE;
     struct frames_options own = *options;
     own.texts = film->texts;
+    own.counted = "edges broken";
     own.text_count = sizeof film->texts / sizeof *film->texts;
     enum status status = STATUS_OK;
     for (int i = 0; i < (separate ? 2 : 1) && !status; i++) {
@@ -121,6 +122,7 @@ static enum status draw_eye(struct film *film, int eye, struct error *err)
     enum status status = render_draw_scene(film->render, &film->view, &scene, &film->image, err);
     if (!status)
         status = remove_old(film, err);
+    frames_count(film->frames[eye], sim->broken);
     return status ? status : frames_add(film->frames[eye], &film->image, sim->time, err);
 }
 

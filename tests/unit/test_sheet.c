@@ -32,6 +32,47 @@ static void a_sheet_shows_what_changes_evenly(void **state)
     sheet_clear(&sheet);
 }
 
+/* A burst: 400 pictures that swell for 40, break for 30, of which they tell the count, and then are debris
+ * that flies out of sight for 330 and changes far more in the picture, while a last fiftieth breaks. */
+static void most_moments_of_a_burst_are_of_what_breaks(void **state)
+{
+    (void)state;
+    struct error err;
+    struct sheet sheet = {.counted = "edges broken"};
+    struct image image = a_picture(300, 200), out = {0};
+    int chosen[SHEET_MOMENTS], breaking = 0, debris = 0;
+    for (int n = 0; n < 400; n++) {
+        const int grey = n < 40 ? n / 2 : n < 70 ? n - 20 : 50 + n % 7 * 20;
+        memset(image.rgb, grey, 3 * 300 * 200);
+        sheet.count_now = n <= 40 ? 0 : n < 70 ? 50 * (n - 40) : 1500 + 0.1 * (n - 70);
+        assert_ok(sheet_add(&sheet, &image, n, &err), &err);
+    }
+    assert_int_equal(sheet_choose(&sheet, chosen), 12);
+    for (int k = 0; k < 12; k++) {
+        breaking += sheet.moments[chosen[k]].time > 40 && sheet.moments[chosen[k]].time <= 70;
+        debris += sheet.moments[chosen[k]].time > 70;
+    }
+    assert_int_equal(sheet.moments[chosen[0]].time, 0);
+    assert_int_equal(sheet.moments[chosen[11]].time, 399);
+    assert_in_range(breaking, 7, 9);
+    assert_in_range(debris, 2, 4);
+    /* The captions, of white tiles: the last has the count beside its time, the first has none. */
+    for (int k = 0; k < sheet.count; k++)
+        memset(sheet.moments[k].image.rgb, 255, 3 * 300 * 200);
+    assert_ok(sheet_draw(&sheet, &out, &err), &err);
+    int dark[2] = {0};
+    for (int tile = 0; tile < 2; tile++)
+        for (int y = 180; y < 200; y++)
+            for (int x = 80; x < 300; x++)
+                dark[tile] += out.rgb[3 * ((size_t)(6 + tile * 2 * 206 + y) * (size_t)out.width +
+                                           (size_t)(6 + tile * 3 * 306 + x))] < 100;
+    assert_int_equal(dark[0], 0);
+    assert_true(dark[1] > 100);
+    image_clear(&image);
+    image_clear(&out);
+    sheet_clear(&sheet);
+}
+
 static void a_still_run_is_spaced_evenly_in_time(void **state)
 {
     (void)state;
@@ -106,6 +147,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_sheet_shows_what_changes_evenly),
+        cmocka_unit_test(most_moments_of_a_burst_are_of_what_breaks),
         cmocka_unit_test(a_still_run_is_spaced_evenly_in_time),
         cmocka_unit_test(times_are_written_so_that_each_is_told_from_the_next),
         cmocka_unit_test(a_sheet_of_few_large_pictures_shows_them_all_reduced),
