@@ -14,7 +14,7 @@
 
 /* Whether a vector is handed over in one register or in two changes nothing for functions that are
  * all compiled in place. */
-#if defined(__GNUC__) && !defined(__clang__)
+#ifdef __GNUC__
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
 
