@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+const unsigned char checkpoint_signature[8] = {0x89, 'b', 'c', 'k', '\r', '\n', 0x1a, '\n'};
+
 char *checkpoint_keys(const struct sim *sim)
 {
     char *text = NULL;

@@ -16,7 +16,7 @@
 #include <stdint.h>
 
 /* As in PNG, so that a transfer that changes line ends or drops the eighth bit is found out at once. */
-static const unsigned char checkpoint_signature[8] = {0x89, 'b', 'c', 'k', '\r', '\n', 0x1a, '\n'};
+extern const unsigned char checkpoint_signature[8];
 
 enum {
     CHECKPOINT_NAME = 4,
