@@ -113,26 +113,26 @@
     X(friction, NUMBER, 0, 100, "0.3", "", 0, "largest force along the skin over that into it",       \
       "Coulomb 1785")
 
-#define SCENE_GAS_FIELDS(X)                                                                               \
-    X(ambient, NUMBER, 0, 1e12, "0", "force/length^2", 0, "pressure of the air outside; to be given", "") \
-    X(fill, NUMBER, 1e-6, 1e6, "1", "", 0,                                                                \
-      "amount at the start, over what fills the rest volume at ambient pressure", "")                     \
-    X(process, CHOICE, 0, 0, "\"isothermal\"", "", 0, "whether heat comes through the skin, or stays",    \
-      "ideal gas")                                                                                        \
-    X(gamma, NUMBER, 1.01, 2, "1.4", "", 0, "ratio of specific heats", "1.4 air, 5/3 helium")             \
-    X(density, NUMBER, 1e-15, 1e9, "1.2", "mass/length^3", 0, "of the gas at ambient pressure",           \
-      "1.2 kg/m^3 air, 0.17 helium, at 20 degrees")                                                       \
-    X(discharge, NUMBER, 0.01, 1, "0.6", "", 0, "width of the jet over that of the opening",              \
-      "sharp edges: pi/(pi + 2) = .611, Kirchhoff 1869")                                                  \
-    X(pump, NUMBER, -1e9, 1e9, "0", "1/s", LIVE,                                                          \
-      "by how much the fill rises a second; below 0: gas is drawn out, down to the pressure outside", "") \
-    X(pump_until, NUMBER, 0, 1e6, "1e6", "", LIVE,                                                        \
-      "fill at which the pump stops; an open neck stops it too", "")                                      \
-    X(leak, NUMBER, 0, 1e12, "0", "length^5/force s", 0,                                                  \
-      "volume, at ambient pressure, that seeps out a second, over the gauge pressure", "")                \
-    X(neck, NUMBER, 0, 1e12, "0", "length^2", 0, "area of an open neck", "")                              \
-    X(neck_at, NUMBER, 0, 1e9, "0", "s", 0, "when the neck opens", "")                                    \
-    X(neck_place, VECTOR, -1e6, 1e6, "[0.0, -1.0, 0.0]", "", 0,                                           \
+#define SCENE_GAS_FIELDS(X)                                                                                 \
+    X(ambient, NUMBER, 0, 1e12, "0", "force/length^2", 0, "pressure of the air outside; to be given", "")   \
+    X(fill, NUMBER, 1e-6, 1e6, "1", "", 0,                                                                  \
+      "amount at the start, over what fills the rest volume at ambient pressure", "")                       \
+    X(process, CHOICE, 0, 0, "\"isothermal\"", "", 0, "whether heat comes through the skin, or stays",      \
+      "ideal gas")                                                                                          \
+    X(gamma, NUMBER, 1.01, 2, "1.4", "", 0, "ratio of specific heats", "1.4 air, 5/3 helium")               \
+    X(density, NUMBER, 1e-15, 1e9, "1.2", "mass/length^3", 0, "of the gas at ambient pressure",             \
+      "1.2 kg/m^3 air, 0.17 helium, at 20 degrees")                                                         \
+    X(discharge, NUMBER, 0.01, 1, "0.6", "", 0, "width of the jet over that of the opening",                \
+      "sharp edges: pi/(pi + 2) = .611, Kirchhoff 1869")                                                    \
+    X(pump, NUMBER, -1e9, 1e9, "0", "1/s", LIVE,                                                            \
+      "by how much the fill rises a second; below 0: gas is drawn out, down to the pressure outside", "")   \
+    X(pump_until, NUMBER, 0, 1e6, "1e6", "", LIVE,                                                          \
+      "fill at which the pump stops, slowing down over the last thousandth; an open neck stops it too", "") \
+    X(leak, NUMBER, 0, 1e12, "0", "length^5/force s", 0,                                                    \
+      "volume, at ambient pressure, that seeps out a second, over the gauge pressure", "")                  \
+    X(neck, NUMBER, 0, 1e12, "0", "length^2", 0, "area of an open neck", "")                                \
+    X(neck_at, NUMBER, 0, 1e9, "0", "s", 0, "when the neck opens", "")                                      \
+    X(neck_place, VECTOR, -1e6, 1e6, "[0.0, -1.0, 0.0]", "", 0,                                             \
       "where the neck is: a direction from the balloon's centre", "")
 
 #define SCENE_TUBE_FIELDS(X)                                                               \

@@ -6,6 +6,7 @@
 #include "sim/reorder.h"
 #include "sim/vectors.h"
 
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -102,6 +103,13 @@ static void reorder(struct sim *sim, struct sim_balloon *b, const struct reorder
         reorder_rows(how, b->gas->held, sizeof *b->gas->held);
 }
 
+/* The part of what is missing that may come a second, so that a step ends at its goal at the most. A method
+ * that chooses its steps sees to that by itself: the longest that it may take says nothing. */
+static double most_a_second(const struct sim *sim)
+{
+    return sim->integrator->flags & INTEGRATOR_ADAPTIVE ? DBL_MAX : 1 / sim->step;
+}
+
 /* Of gas that is gone: the air's. */
 static struct gas_drive drive_at(const struct sim *sim, const struct gas *gas, double pressure, double volume)
 {
@@ -113,7 +121,7 @@ static struct gas_drive drive_at(const struct sim *sim, const struct gas *gas, d
                               .warmth = gone ? 1 : pressure * volume / amount,
                               .amount_of_mass = gas->scene->ambient / gas->scene->density,
                               .capacity = gone ? INFINITY : capacity,
-                              .to_even = capacity / (2 * sim->step)};
+                              .to_even = capacity / 2 * most_a_second(sim)};
 }
 
 struct gas_drive gas_drive(const struct sim *sim, const struct sim_balloon *balloon)
@@ -144,18 +152,27 @@ void gas_stream(struct sim *sim, const struct sim_balloon *balloon, double rate,
                                     (warmth / (gas->pressure * gas->volume) - 1 / gas_amount(sim, gas));
 }
 
-/* What the pump brings a second, or, below 0, draws out. Near its goal, and as the pressure nears the air's,
- * it slows down, so that neither is overshot. */
+bool gas_flows(const struct sim_balloon *balloon)
+{
+    const struct gas *gas = balloon->gas;
+    return gas && !gas->memory.gone &&
+           (balloon->now->pump != 0 || gas->scene->leak > 0 || balloon->scene->tube.on ||
+            gas->memory.neck_open || gas->memory.torn_open);
+}
+
+/* What the pump brings a second, or, below 0, draws out. Over the last thousandth, of its goal or of what
+ * fills the balloon, it slows down in proportion to what is missing; and over the last step, so that neither
+ * the goal nor the air's pressure is overshot. */
 static double pumped(const struct sim *sim, const struct sim_balloon *b, const struct gas_drive *in)
 {
     const struct gas *gas = b->gas;
-    const double rate = b->now->pump * gas->filling,
-                 missing = b->now->pump_until * gas->filling - gas_amount(sim, gas);
-    if (gas->memory.neck_open)
+    const double rate = b->now->pump * gas->filling, goal = b->now->pump_until * gas->filling,
+                 missing = goal - gas_amount(sim, gas), gauge = fmax(in->pressure - gas->scene->ambient, 0);
+    if (gas->memory.neck_open || rate == 0)
         return 0;
     if (rate < 0)
-        return -fmin(-rate, in->to_even * fmax(in->pressure - gas->scene->ambient, 0));
-    return fmax(0, fmin(rate, missing / sim->step));
+        return rate * fmin(1, gauge * fmin(in->capacity / (1e-3 * gas->filling), in->to_even / -rate));
+    return fmax(0, fmin(rate, fmin(missing * most_a_second(sim), rate * (missing / (1e-3 * goal)))));
 }
 
 /* By pump and through the skin. */

@@ -66,6 +66,9 @@ static inline double gas_gauge_pressure(struct sim *sim, const struct sim_balloo
  * it: below 0), as rates of sim->scalar. */
 void gas_stream(struct sim *sim, const struct sim_balloon *balloon, double rate, double warmth);
 
+/* Whether the amount of a balloon's gas may change. */
+bool gas_flows(const struct sim_balloon *balloon);
+
 /* What drives tubes. */
 struct gas_drive {
     double pressure;

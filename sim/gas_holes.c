@@ -139,6 +139,10 @@ double gas_thrust_power(const struct sim *sim, const struct sim_balloon *balloon
     return power.sum;
 }
 
+/* Nearer than this to even pressures, of the higher one, flow is laminar: it goes by their difference, not by
+ * its root, as in effect_tube.c. */
+static const double laminar = 1e-4;
+
 /* Air that is drawn in pushes at nothing: its speed is lost inside. */
 void gas_let_out(struct sim *sim, struct sim_balloon *balloon)
 {
@@ -151,18 +155,21 @@ void gas_let_out(struct sim *sim, struct sim_balloon *balloon)
     const struct gas_drive in = gas_drive(sim, balloon);
     const double gauge = in.pressure - scene->ambient, most = in.to_even * fabs(gauge);
     if (gauge > 0) {
-        const struct gas_jet jet = gas_jet(in.pressure, in.density, scene->ambient, scene->gamma,
+        const double turbulent = fmax(gauge, laminar * in.pressure);
+        const struct gas_jet jet = gas_jet(in.pressure, in.density, in.pressure - turbulent, scene->gamma,
                                            scene->discharge);
-        const double rate = jet.flux * area * in.amount_of_mass, share = rate > most ? most / rate : 1;
+        const double rate = jet.flux * area * in.amount_of_mass,
+                     share = fmin(gauge / turbulent, rate > most ? most / rate : 1);
         gas_stream(sim, balloon, -share * rate, in.warmth);
         sim->scalar_rate[gas->scalar + GAS_BROUGHT] -= share * rate;
         gas->rim_thrust = share * jet.thrust - gauge;
         gas->neck_thrust = share * jet.thrust * neck_area(gas);
         add_thrust(sim, balloon, sim->force, add_force);
     } else if (gauge < 0) {
-        const struct gas_jet jet = gas_jet(scene->ambient, scene->density, in.pressure, scene->gamma,
-                                           scene->discharge);
-        const double rate = fmin(jet.flux * area * in.amount_of_mass, most);
+        const double turbulent = fmax(-gauge, laminar * scene->ambient);
+        const struct gas_jet jet = gas_jet(scene->ambient, scene->density, scene->ambient - turbulent,
+                                           scene->gamma, scene->discharge);
+        const double rate = fmin(jet.flux * area * in.amount_of_mass * (-gauge / turbulent), most);
         gas_stream(sim, balloon, rate, 1);
         sim->scalar_rate[gas->scalar + GAS_BROUGHT] += rate;
     }

@@ -6,7 +6,8 @@
  * radii and of velocities in mean radii times the rate at which the balloon breathes (weights.h). The next
  * step's length follows from this error and the last one (a PI controller: Gustafsson, ACM TOMS 17 (1991)
  * 533; constants of Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, II.4 and IV.2).
- * Scalars are integrated along and do not choose; what flows between balloons sets a longest step (guard.h).
+ * The worst of the scalars counts as well, by its size or by what would come of it in the time of a breath at
+ * its rate, but not those that only record. What flows between balloons sets a longest step (guard.h).
  *
  * The last stage of a step is the first of the next. It is evaluated anew where that may not hold: after
  * something broke, and when the state is not the one that the last step left.
@@ -41,13 +42,17 @@ struct adaptive {
         double last_error; /* of the last accepted step, in tolerances */
     } control;
     double taken;           /* s: the last accepted step */
+    uint32_t scalars;       /* that steps are chosen by, and forces may depend on */
     uint64_t last_stage_of; /* number of the step whose last stage is at hand; 0: none */
 };
 
 static enum status open(struct sim *sim, struct error *err)
 {
-    sim->method = calloc(1, sizeof(struct adaptive));
-    return sim->method ? weights_open(sim, err) : error_no_memory(err, "the method");
+    struct adaptive *adaptive = sim->method = calloc(1, sizeof *adaptive);
+    if (!adaptive)
+        return error_no_memory(err, "the method");
+    adaptive->scalars = sim->scalar_count;
+    return weights_open(sim, err);
 }
 
 static void close(struct sim *sim)
@@ -91,6 +96,26 @@ static double first_step(struct sim *sim, double longest)
     return fmin(longest, rate > 0 ? 0.01 / rate : INFINITY);
 }
 
+/* Of the worst of them. */
+static double error_of_scalars(const struct sim *sim, double dt)
+{
+    const struct adaptive *adaptive = sim->method;
+    double worst = 0, breathing = 0;
+    for (size_t i = 0; i < sim->balloon_count; i++)
+        breathing = fmax(breathing, sim->balloons[i].breathing_rate);
+    for (uint32_t i = 0; i < adaptive->scalars; i++) {
+        double error = 0, rate = 0;
+        for (int k = 0; k < STAGES; k++) {
+            error += dt * error_weights[k] * sim->scalar_scratch[k][i];
+            rate = fmax(rate, fabs(sim->scalar_scratch[k][i]));
+        }
+        const double part = fabs(error) / fmax(fabs(sim->scalar[i]), rate / breathing);
+        if (error != 0 && !(part <= worst)) /* no number is the worst */
+            worst = part;
+    }
+    return worst / sim->scene->time.tolerance;
+}
+
 /* The error's estimate over the tolerance. Takes the place of k_1, which no result needs any more. */
 static double error_of(struct sim *sim, double dt)
 {
@@ -100,7 +125,10 @@ static double error_of(struct sim *sim, double dt)
             terms[i] = (struct vector_term){dt * error_weights[i], sim->scratch[part * STAGES + i]};
         vector_combine(sim, sim->scratch[part * STAGES + 1], NULL, terms, STAGES);
     }
-    return weights_norm(sim, sim->scratch[1], sim->scratch[STAGES + 1], sim->scene->time.tolerance);
+    const double points = weights_norm(sim, sim->scratch[1], sim->scratch[STAGES + 1],
+                                       sim->scene->time.tolerance);
+    const double scalars = error_of_scalars(sim, dt);
+    return isnan(points) || scalars <= points ? points : scalars;
 }
 
 /* How much longer the next step may be, after an error of `error` tolerances. */

@@ -12,13 +12,16 @@
  * other, so the order stays 4 with damping, at 28 forces a step: rk4 is then the cheaper one, and nothing
  * is left to be symplectic about.
  *
- * Scalars flow during the kicks, as velocities do.
+ * Scalars flow during the kicks, as velocities do; where they are gas, on which forces depend, kicks are
+ * solved as with damping.
  */
 #include "sim/rkn4.h"
+#include "sim/effect_gas.h"
 #include "sim/methods.h"
 #include "sim/vectors.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 enum { STAGES = 4 }; /* of a damped kick */
 #define B1 0.0829844064174052
@@ -85,24 +88,39 @@ static void advance_conservative(struct sim *sim, double dt)
     rkn4->remembers = 1;
 }
 
-/* v' = f(x, v)/m over dt with x as it is. */
+/* There may be none. */
+static void copy(double *to, const double *from, size_t bytes)
+{
+    if (bytes > 0)
+        memcpy(to, from, bytes);
+}
+
+/* v' = f(x, v)/m over dt with x as it is; what flows changes forces, too. */
 static void kick_damped(struct sim *sim, double dt)
 {
     static const double node[STAGES] = {0, 0.5, 0.5, 1},
                         weight[STAGES] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
     struct vector_term terms[STAGES];
+    double *const *rate = sim->scalar_scratch, *scalar = sim->scalar_scratch[STAGES];
+    const size_t scalars = sim->scalar_count * sizeof *scalar;
     vector_copy(sim, sim->scratch[STAGES], sim->velocity);
+    copy(scalar, sim->scalar, scalars);
     for (int i = 0; i < STAGES; i++) {
         if (i > 0)
             vector_combine(sim, sim->velocity, sim->scratch[STAGES],
                            &(struct vector_term){dt * node[i], sim->scratch[i - 1]}, 1);
+        for (uint32_t s = 0; s < sim->scalar_count && i > 0; s++)
+            sim->scalar[s] = scalar[s] + dt * node[i] * rate[i - 1][s];
         sim_forces(sim);
         vector_over_mass(sim, sim->scratch[i], sim->force);
+        copy(rate[i], sim->scalar_rate, scalars);
         terms[i] = (struct vector_term){dt * weight[i], sim->scratch[i]};
-        for (uint32_t s = 0; s < sim->scalar_count; s++)
-            sim->scalar[s] += dt * weight[i] * sim->scalar_rate[s];
     }
     vector_combine(sim, sim->velocity, sim->scratch[STAGES], terms, STAGES);
+    copy(sim->scalar, scalar, scalars);
+    for (int i = 0; i < STAGES; i++)
+        for (uint32_t s = 0; s < sim->scalar_count; s++)
+            sim->scalar[s] += dt * weight[i] * rate[i][s];
 }
 
 static void advance_damped(struct sim *sim, double dt)
@@ -115,10 +133,11 @@ static void advance_damped(struct sim *sim, double dt)
     ((struct rkn4 *)sim->method)->remembers = 0;
 }
 
+/* Whether forces change while x does not. */
 static bool is_damped(const struct sim *sim)
 {
     for (size_t i = 0; i < sim->balloon_count; i++)
-        if (sim->settings[i].damping != 0)
+        if (sim->settings[i].damping != 0 || gas_flows(&sim->balloons[i]))
             return true;
     for (size_t i = 0; i < sim->hook_count[EFFECT_FORCES]; i++)
         if (sim->hooks[EFFECT_FORCES][i].effect->damps)
