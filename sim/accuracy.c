@@ -196,14 +196,6 @@ static enum status climb(struct accuracy_plan *plan, struct ladder *ladder, stru
     return STATUS_OK;
 }
 
-static bool suits(const struct integrator *method, const struct scene *scene)
-{
-    bool springs_only = true;
-    for (size_t i = 0; i < scene->balloon_count; i++)
-        springs_only &= !scene->balloons[i].membrane.on && !scene->balloons[i].bending.on;
-    return springs_only || !(method->flags & INTEGRATOR_SPRINGS_ONLY);
-}
-
 static enum status walk(struct accuracy_plan *plan, const struct integrator *method,
                         struct accuracy_states *states, struct error *err)
 {
@@ -219,8 +211,9 @@ static enum status walk(struct accuracy_plan *plan, const struct integrator *met
                                     (double)plan->methods,
                             .per_step = evaluations * plan->evaluation,
                             .first = table->count};
-    if (!suits(method, plan->subject.scene)) {
-        note_failure(plan, &ladder, "moves springs only");
+    const char *unsuited = accuracy_unsuited(plan->subject.scene, method);
+    if (unsuited) {
+        note_failure(plan, &ladder, unsuited);
         ladder.over = true;
     }
     enum status status = STATUS_OK;

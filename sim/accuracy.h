@@ -28,7 +28,8 @@ enum {
     ACCURACY_ROWS_MAX = 256,
     ACCURACY_LADDER_ROWS = 10,  /* of one method, at most */
     ACCURACY_FAILURES_MAX = 16, /* a line a method; a test holds that there are no more methods */
-    ACCURACY_MEMBERS = 8        /* of an ensemble */
+    ACCURACY_MEMBERS_LEAST = 4, /* of an ensemble */
+    ACCURACY_MEMBERS = 8        /* at most */
 };
 
 struct accuracy_options {

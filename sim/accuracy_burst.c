@@ -47,10 +47,10 @@ static enum status go_through(struct accuracy_run *run, const struct accuracy_pl
     return STATUS_OK;
 }
 
-/* As many members as there is time for. What a method cannot do it does not do in the table either. */
+/* As many members as there is time for; none, where there is none for the fewest that say anything, which the
+ * first member shows. What a method cannot do it does not do in the table either. */
 static enum status run_ensemble(struct accuracy_plan *plan, struct accuracy_row *row, struct error *err)
 {
-    enum { MEMBERS_LEAST = 4 };
     double left = ACCURACY_BURSTS_SHARE * plan->subject.options->seconds / (double)plan->methods;
     struct ensemble ensemble = {0};
     enum status status = STATUS_OK;
@@ -61,7 +61,7 @@ static enum status run_ensemble(struct accuracy_plan *plan, struct accuracy_row 
         dials.step = fmin(dials.step, plan->step); /* what breaks, breaks at the end of a step */
         dials.member = member;
         status = accuracy_open(&run, &plan->subject, &dials, err);
-        run.limit = left;
+        run.limit = left / fmax(1, ACCURACY_MEMBERS_LEAST - ensemble.count);
         if (!status)
             status = go_through(&run, plan, &ensemble, err);
         left -= run.seconds;
@@ -69,7 +69,7 @@ static enum status run_ensemble(struct accuracy_plan *plan, struct accuracy_row 
     }
     if (status == STATUS_INTERRUPTED || status == STATUS_NO_MEMORY)
         return status;
-    if (ensemble.count >= MEMBERS_LEAST)
+    if (ensemble.count >= ACCURACY_MEMBERS_LEAST)
         row->burst = (struct accuracy_burst){ensemble.count, statistic(&ensemble.time, ensemble.count),
                                              statistic(&ensemble.pieces, ensemble.count),
                                              statistic(&ensemble.largest, ensemble.count)};

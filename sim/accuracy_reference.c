@@ -7,12 +7,13 @@
 #include <math.h>
 
 /* Explicit methods, unless the steps that are stable are too many. */
+enum { PAIR_TOLERANT = 2 };
 struct pair {
-    const char *tolerant[3]; /* the first of them that is there */
-    const char *fixed;
+    const char *tolerant[PAIR_TOLERANT],
+        *fixed; /* the first of them is better, where both keep a tolerance */
 };
-static const struct pair explicit_pair = {{"cvode-adams", "rk-adaptive", NULL}, "rkn4"},
-                         implicit_pair = {{"cvode-bdf", "rk-adaptive", NULL}, "implicit-midpoint"};
+static const struct pair explicit_pair = {{"cvode-adams", "rk-adaptive"}, "rkn4"},
+                         implicit_pair = {{"cvode-bdf", "rk-adaptive"}, "implicit-midpoint"};
 
 static double budget(const struct accuracy_plan *plan)
 {
@@ -25,30 +26,62 @@ static void tell_run(struct accuracy_plan *plan)
     plan->subject.done += 0.25 * (ACCURACY_REFERENCES_DONE - plan->subject.done);
 }
 
-/* Of a scene that is hard each try that fails takes all of its time: a shorter span begins not far below what
- * could be kept over a longer one. */
+/* What each of a pair's methods may be tried at next. */
+struct attempt {
+    const struct integrator *method;
+    double tolerance;
+};
+
+/* At ten times the tolerance a method of order p takes 10^(1/p) times fewer steps: one of the fifth that came
+ * a share of the way in its time needs as much more of that. */
+static double next_tolerance(double tolerance, double share)
+{
+    const double order = 5, decades = ceil(order * -log10(fmax(share, 1e-9)));
+    return tolerance * pow(10, fmax(decades, 1));
+}
+
+/* One run, kept where it comes to its end. */
+static enum status attempt(struct accuracy_plan *plan, struct attempt *a, struct accuracy_states *states,
+                           struct error *err)
+{
+    const struct accuracy_dials dials = accuracy_dials_of(plan, a->method, a->tolerance);
+    struct accuracy_run run;
+    const enum status status = accuracy_go(&run, &plan->subject, &dials, budget(plan), states, err);
+    tell_run(plan);
+    if (status) {
+        a->tolerance = next_tolerance(a->tolerance, status == STATUS_RESOURCE ? run.reached / dials.end : 1);
+        return status;
+    }
+    snprintf(plan->table->reference[0], sizeof plan->table->reference[0], "%s at time.tolerance=%g",
+             a->method->name, a->tolerance);
+    plan->tightest = a->tolerance;
+    accuracy_close(&run);
+    return STATUS_OK;
+}
+
+/* The tightest tolerance that any of the methods can keep that may be had for the scene. A shorter span
+ * begins not far below what could be kept over a longer one. */
 static enum status find_tolerant(struct accuracy_plan *plan, const struct pair *pair,
                                  struct accuracy_states *states, struct error *err)
 {
+    const double first = fmax(plan->tightest / 1e3, 1e-12), last = 1e-5;
+    struct attempt attempts[PAIR_TOLERANT], *next = attempts;
+    for (int i = 0; i < PAIR_TOLERANT; i++) {
+        const struct integrator *method = integrator_find(pair->tolerant[i]);
+        attempts[i] = (struct attempt){method,
+                                       accuracy_unsuited(plan->subject.scene, method) ? INFINITY : first};
+        if (attempts[i].tolerance < next->tolerance * (1 - 1e-9))
+            next = &attempts[i];
+    }
     enum status status = STATUS_RESOURCE;
-    const double first = fmax(plan->tightest / 1e3, 1e-12);
-    for (int i = 0; pair->tolerant[i]; i++)
-        for (double tolerance = first; tolerance < 1e-5; tolerance *= 10) {
-            const struct integrator *method = integrator_find(pair->tolerant[i]);
-            const struct accuracy_dials dials = accuracy_dials_of(plan, method, tolerance);
-            struct accuracy_run run;
-            status = accuracy_go(&run, &plan->subject, &dials, budget(plan), states, err);
-            tell_run(plan);
-            if (!status) {
-                snprintf(plan->table->reference[0], sizeof plan->table->reference[0],
-                         "%s at time.tolerance=%g", method->name, tolerance);
-                plan->tightest = tolerance;
-                accuracy_close(&run);
-                return STATUS_OK;
-            }
-            if (status != STATUS_RANGE && status != STATUS_RESOURCE && status != STATUS_DIVERGED)
-                return status;
-        }
+    while (next->tolerance < last * (1 + 1e-9)) {
+        status = attempt(plan, next, states, err);
+        if (status != STATUS_RANGE && status != STATUS_RESOURCE && status != STATUS_DIVERGED)
+            return status;
+        for (int i = 0; i < PAIR_TOLERANT; i++)
+            if (attempts[i].tolerance < next->tolerance * (1 - 1e-9))
+                next = &attempts[i];
+    }
     return status;
 }
 

@@ -1,6 +1,7 @@
 #include "sim/accuracy_run.h"
 #include "common/array.h"
 #include "common/random.h"
+#include "common/scene_checks.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,6 +21,21 @@ static int index_of(const char *integrator)
     while (strcmp(scene_integrator_names[i], integrator))
         i++;
     return i;
+}
+
+const char *accuracy_unsuited(const struct scene *scene, const struct integrator *method)
+{
+    struct scene tried = *scene;
+    struct error ignored;
+    tried.time.integrator = index_of(method->name);
+    for (size_t i = 0; i < scene->balloon_count; i++) {
+        const struct scene_balloon *b = &scene->balloons[i];
+        if (method->flags & INTEGRATOR_SPRINGS_ONLY && (b->membrane.on || b->bending.on))
+            return "moves springs only";
+        if (scene_check_fracture(&tried, i, &ignored))
+            return "cannot follow a skin that tears";
+    }
+    return NULL;
 }
 
 /* Another member of the ensemble: every coordinate somewhere within 1e-9 of the radius from where it was. */
@@ -61,6 +77,7 @@ enum status accuracy_step(struct accuracy_run *run, const struct accuracy_subjec
     const double began = now();
     const enum status status = sim_step(&run->sim, err);
     run->seconds += now() - began;
+    run->reached = run->sim.time;
     run->evaluations += run->sim.evaluations - evaluations;
     run->products += run->sim.products - products;
     if (!status && run->seconds > run->limit)
@@ -68,13 +85,36 @@ enum status accuracy_step(struct accuracy_run *run, const struct accuracy_subjec
     return status;
 }
 
+/* Where a run was when it was last looked at. */
+struct pace {
+    double seconds, reached;
+};
+
+/* Methods that choose their steps may come upon what they cannot pass but in ever shorter ones: if the rest
+ * would take many times what is left at the pace of the last part of the limit, it is over. */
+static enum status check_pace(const struct accuracy_run *run, struct pace *last, struct error *err)
+{
+    const double part = run->limit / 8, many = 8;
+    const double spent = run->seconds - last->seconds, gained = run->reached - last->reached;
+    if (!(spent > part))
+        return STATUS_OK;
+    *last = (struct pace){run->seconds, run->reached};
+    if ((run->scene.time.end - run->reached) * spent <= many * gained * (run->limit - run->seconds))
+        return STATUS_OK;
+    return error_set(err, STATUS_RESOURCE, "would take more than %.2g s", run->limit);
+}
+
 enum status accuracy_advance(struct accuracy_run *run, const struct accuracy_subject *subject, double time,
                              struct error *err)
 {
     struct sim *sim = &run->sim;
+    struct pace last = {run->seconds, run->reached};
     enum status status = STATUS_OK;
-    while (!status && sim->time + (sim->integrator->look ? 0 : sim->step / 2) < time)
+    while (!status && sim->time + (sim->integrator->look ? 0 : sim->step / 2) < time) {
         status = accuracy_step(run, subject, err);
+        if (!status)
+            status = check_pace(run, &last, err);
+    }
     return status;
 }
 

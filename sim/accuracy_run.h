@@ -25,6 +25,7 @@ struct accuracy_run {
     struct scene scene; /* what it points to is the subject's */
     struct sim sim;
     double seconds, limit;          /* in sim_step(), so far; at most */
+    double reached;                 /* s: how far it came */
     uint64_t evaluations, products; /* likewise */
 };
 
@@ -33,6 +34,9 @@ struct accuracy_states {
     double (*position[ACCURACY_TIMES])[4]; /* [point_count] owned */
     double volume[ACCURACY_TIMES], pressure[ACCURACY_TIMES], energy[ACCURACY_TIMES];
 };
+
+/* Why the method cannot move the scene's balloons, which a run would be refused for; NULL: it can. */
+const char *accuracy_unsuited(const struct scene *scene, const struct integrator *method);
 
 /* Errors: those of sim_open(). It must be closed in any case. */
 enum status accuracy_open(struct accuracy_run *run, const struct accuracy_subject *subject,
@@ -43,8 +47,8 @@ void accuracy_close(struct accuracy_run *run); /* what it counted stays */
 enum status accuracy_step(struct accuracy_run *run, const struct accuracy_subject *subject,
                           struct error *err);
 
-/* Steps until the time, or past it where the method can look into its steps. Errors:
- * those of accuracy_step(). */
+/* Steps until the time, or past it where the method can look into its steps. Errors: those of
+ * accuracy_step(); STATUS_RESOURCE also where it comes on so slowly that its end is far beyond the limit. */
 enum status accuracy_advance(struct accuracy_run *run, const struct accuracy_subject *subject, double time,
                              struct error *err);
 

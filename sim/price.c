@@ -99,14 +99,20 @@ static void print_burst(const struct accuracy_table *table, FILE *stream)
         return;
     fprintf(stream, "# the first edge lets go at %.4g s: from there on single runs mean nothing\n",
             table->first_break);
-    if (isfinite(table->burst_end))
+    bool compared = false;
+    for (size_t i = 0; i < table->count; i++)
+        compared |= table->rows[i].burst.members > 0;
+    if (!isfinite(table->burst_end))
+        fprintf(stream, "# no burst is compared: fewer than one edge in a hundred let go in the first run\n");
+    else if (!compared)
+        fprintf(stream, "# no burst is compared: there is no time for %d runs by any method up to %.4g s\n",
+                ACCURACY_MEMBERS_LEAST, table->burst_end);
+    else
         fprintf(
             stream,
             "# burst: means over members that differ by 1e-9 radii at the start; its time is when one edge in a hundred "
             "had let go, pieces are counted at %.4g s\n",
             table->burst_end);
-    else
-        fprintf(stream, "# no burst is compared: fewer than one edge in a hundred let go in the first run\n");
 }
 
 static void print_auto(const struct accuracy_table *table, FILE *stream)
