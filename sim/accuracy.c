@@ -277,9 +277,11 @@ enum status accuracy_measure(const struct scene *scene, const struct mesh *meshe
     while (integrators[plan.methods])
         plan.methods++;
     enum status status = find_stable(&plan, err);
+    plan.subject.part = ACCURACY_FIRST_DONE;
     if (!status)
         status = accuracy_find_reach(&plan, err);
-    plan.subject.done = 0.1;
+    plan.subject.done = ACCURACY_FIRST_DONE;
+    plan.subject.part = 0;
     if (!status) {
         accuracy_set_span(&plan);
         status = accuracy_find_reference(&plan, err);

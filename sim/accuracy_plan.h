@@ -10,7 +10,8 @@
 #define ACCURACY_LADDERS_SHARE   0.4
 #define ACCURACY_BURSTS_SHARE    0.3
 
-/* What progress tells when the references are there. */
+/* What progress tells when the first run is over, and when the references are there. */
+#define ACCURACY_FIRST_DONE      0.1
 #define ACCURACY_REFERENCES_DONE 0.3
 
 struct accuracy_plan {

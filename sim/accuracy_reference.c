@@ -20,10 +20,18 @@ static double budget(const struct accuracy_plan *plan)
     return ACCURACY_REFERENCE_SHARE * plan->subject.options->seconds;
 }
 
-/* How many runs it takes is not known beforehand: each goes a part of the way that is left. */
-static void tell_run(struct accuracy_plan *plan)
+/* A run that is told of as it goes: how many it takes is not known beforehand, and each brings things on by a
+ * part of the way that is left. */
+static enum status go(struct accuracy_plan *plan, struct accuracy_run *run,
+                      const struct accuracy_dials *dials, double limit, struct accuracy_states *states,
+                      struct error *err)
 {
-    plan->subject.done += 0.25 * (ACCURACY_REFERENCES_DONE - plan->subject.done);
+    struct accuracy_subject *subject = &plan->subject;
+    subject->part = 0.25 * (ACCURACY_REFERENCES_DONE - subject->done);
+    const enum status status = accuracy_go(run, subject, dials, limit, states, err);
+    subject->done += subject->part;
+    subject->part = 0;
+    return status;
 }
 
 /* What each of a pair's methods may be tried at next. */
@@ -46,8 +54,7 @@ static enum status attempt(struct accuracy_plan *plan, struct attempt *a, struct
 {
     const struct accuracy_dials dials = accuracy_dials_of(plan, a->method, a->tolerance);
     struct accuracy_run run;
-    const enum status status = accuracy_go(&run, &plan->subject, &dials, budget(plan), states, err);
-    tell_run(plan);
+    const enum status status = go(plan, &run, &dials, budget(plan), states, err);
     if (status) {
         a->tolerance = next_tolerance(a->tolerance, status == STATUS_RESOURCE ? run.reached / dials.end : 1);
         return status;
@@ -122,8 +129,7 @@ static enum status halve(struct accuracy_plan *plan, const struct integrator *me
 {
     const struct accuracy_dials dials = accuracy_dials_of(plan, method, plan->step / h->parts);
     struct accuracy_run run;
-    enum status status = accuracy_go(&run, &plan->subject, &dials, 4 * budget(plan), &h->fine, err);
-    tell_run(plan);
+    enum status status = go(plan, &run, &dials, 4 * budget(plan), &h->fine, err);
     if (status)
         return status;
     if (h->coarse.position[0]) {

@@ -68,10 +68,17 @@ void accuracy_close(struct accuracy_run *run)
     sim_clear(&run->sim);
 }
 
+/* Of this run: it is over at its end or at its limit. */
+static double share_done(const struct accuracy_run *run)
+{
+    return fmin(1, fmax(run->reached / run->scene.time.end, run->seconds / run->limit));
+}
+
 enum status accuracy_step(struct accuracy_run *run, const struct accuracy_subject *subject, struct error *err)
 {
     const struct accuracy_options *options = subject->options;
-    if (options->go_on && !options->go_on(options->context, subject->done))
+    const double done = subject->done + subject->part * share_done(run);
+    if (options->go_on && !options->go_on(options->context, done))
         return error_set(err, STATUS_INTERRUPTED, "interrupted; no table was made");
     const uint64_t evaluations = run->sim.evaluations, products = run->sim.products;
     const double began = now();

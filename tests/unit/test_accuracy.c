@@ -124,6 +124,35 @@ static void it_ends_when_somebody_wants_it_to(void **state)
     assert_int_equal(asked, 20);
 }
 
+struct told {
+    double last;
+    int moves[2]; /* during the first run; while references are sought */
+    bool back;
+};
+
+static bool note(void *context, double done)
+{
+    struct told *told = context;
+    told->back |= done < told->last;
+    if (done > told->last && done < 0.3)
+        told->moves[done > 0.1]++;
+    told->last = done;
+    return true;
+}
+
+/* The first run is of 32 steps at the least, and the last reference's of some hundreds. */
+static void progress_moves_within_a_run_and_never_goes_back(void **state)
+{
+    (void)state;
+    static struct accuracy_table table;
+    struct error err = {0};
+    struct told told = {0};
+    const struct accuracy_options options = {.seconds = 1 * slowdown(), .go_on = note, .context = &told};
+    assert_ok(measure(CALM, &options, &table, &err), &err);
+    assert_false(told.back);
+    assert_true(told.moves[0] >= 20 && told.moves[1] >= 100);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -131,6 +160,7 @@ int main(void)
         cmocka_unit_test(references_agree_ten_times_better_than_the_best_row),
         cmocka_unit_test(the_span_ends_before_the_first_break_and_ensembles_go_past_it),
         cmocka_unit_test(it_ends_when_somebody_wants_it_to),
+        cmocka_unit_test(progress_moves_within_a_run_and_never_goes_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
