@@ -124,6 +124,37 @@ static void add_text(const struct app *app, struct render_text *texts, size_t *c
     (*count)++;
 }
 
+/* Whether the last of these texts covers another, or leaves the eye's picture below. */
+static bool covers(const struct app *app, const struct render_text *texts, size_t count)
+{
+    const struct render_text *last = &texts[count - 1];
+    int size[2], width, height, other;
+    orbit_eye_size(&app->view, size);
+    render_text_size(last, &width, &height);
+    for (size_t i = 0; i + 1 < count; i++) {
+        render_text_size(&texts[i], &width, &other);
+        if (texts[i].y < last->y + height && last->y < texts[i].y + other)
+            return true;
+    }
+    return last->y + height > size[1];
+}
+
+/* The list of keys between the other texts, in small letters where there is not much room, and in the place
+ * of the others where there is less. */
+static void add_help(const struct app *app, struct render_text *texts, size_t *count,
+                     char storage[WINDOW_TEXTS_MAX][TEXT_SIZE], const float colour[3])
+{
+    memcpy(storage[*count], help, sizeof help);
+    add_text(app, texts, count, storage[*count], 3 * MARGIN, 6 * MARGIN, colour);
+    if (covers(app, texts, *count))
+        texts[*count - 1].scale = 1;
+    if (!covers(app, texts, *count))
+        return;
+    texts[0] = texts[*count - 1];
+    texts[0].x = texts[0].y = MARGIN;
+    *count = 1;
+}
+
 size_t app_texts(const struct app *app, struct render_text texts[WINDOW_TEXTS_MAX])
 {
     static const float white[3] = {1, 1, 1}, warm[3] = {1, 0.8f, 0.3f};
@@ -139,12 +170,10 @@ size_t app_texts(const struct app *app, struct render_text texts[WINDOW_TEXTS_MA
         snprintf(storage[count], TEXT_SIZE, "%s", app->hints.message);
         add_text(app, texts, &count, storage[count], MARGIN, MARGIN, warm);
     }
-    if (app->hints.help) {
-        memcpy(storage[count], help, sizeof help);
-        add_text(app, texts, &count, storage[count], 3 * MARGIN, 6 * MARGIN, white);
-    }
     describe_question(app, storage[count], TEXT_SIZE);
-    if (storage[count][0])
+    if (!storage[count][0] && app->hints.help)
+        add_help(app, texts, &count, storage, white);
+    else if (storage[count][0])
         add_text(app, texts, &count, storage[count], 3 * MARGIN, size[1] / 2 - 20, white);
     return count;
 }

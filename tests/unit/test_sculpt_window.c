@@ -36,10 +36,45 @@ static void beside_a_balloon_it_names_the_way_back(void **state)
                         "the balloon, blown up   p  back to the sculpture   i  back to rest   F1 help");
 }
 
+static void nothing_covers_the_list_of_keys(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{960, 720}, {960, 500},  {800, 600},  {640, 480}, {400, 300},
+                                   {480, 320}, {1900, 250}, {1280, 200}, {500, 900}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+        for (int shown = 0; shown < 4; shown++) {
+            struct render_text texts[WINDOW_TEXTS_MAX];
+            app = (struct app){.open = true, .view = {.width = sizes[i][0], .height = sizes[i][1]}};
+            app.hints.help = true;
+            if (shown & 1)
+                hints_say(&app.hints,
+                          "mirror.vox: a file that is not there cannot be opened by anybody, and so it "
+                          "was not: the sculpture is what it was before");
+            if (shown & 2)
+                app.view.stereo = RENDER_PARALLEL;
+            const size_t count = app_texts(&app, texts);
+            assert_true(count > 0 && strstr(texts[count - 1].text, "this help"));
+            int bottom[3] = {0}, width;
+            for (size_t k = 0; k < count; k++) {
+                render_text_size(&texts[k], &width, &bottom[k]);
+                bottom[k] += texts[k].y;
+            }
+            for (size_t k = 0; k < count; k++)
+                for (size_t l = 0; l < k; l++)
+                    if (texts[k].y < bottom[l] && texts[l].y < bottom[k])
+                        fail_msg("%d x %d, %d: %.20s at %d to %d, %.20s at %d to %d", sizes[i][0],
+                                 sizes[i][1], shown, texts[k].text, texts[k].y, bottom[k], texts[l].text,
+                                 texts[l].y, bottom[l]);
+            if (sizes[i][1] >= 300 && sizes[i][0] >= 400 && !(shown & 2))
+                assert_true(bottom[count - 1] <= sizes[i][1]);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(it_names_what_the_tool_does),
+        cmocka_unit_test(nothing_covers_the_list_of_keys),
         cmocka_unit_test(beside_a_balloon_it_names_the_way_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
