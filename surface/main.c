@@ -259,14 +259,14 @@ static enum status report(struct mesh *mesh, const struct arguments *arguments, 
         return err->status;
     if (arguments->info && inform(mesh, arguments, tree, stats, err))
         return err->status;
-    /* the field has nothing finer than one Gaussian, as wide where it is half as high as at its middle */
-    const double width = 2 * sqrt(2 * log(2)),
-                 detail = finest_cell * fmax(1, width * arguments->options.field.sigma);
+    /* the field has nothing finer than one Gaussian, as wide where it is half as high as at its middle; with
+     * one half wider than that needs, what is left of the cells' steps is smooth as well */
+    const double width = 2 * sqrt(2 * log(2)), detail = finest_cell * width * arguments->options.field.sigma;
     if (stats->cube_size > detail)
         command_note(
-            "cubes of %.4g are larger than the sculpture's detail, %.4g: what is thinner may be lost; "
-            "take more triangles, or smooth it more: --sigma %.2g",
-            stats->cube_size, detail, ceil(10 * stats->cube_size / finest_cell / width) / 10);
+            "cubes of %.4g are larger than the sculpture's detail, %.4g: the mesh may be rough, and lack what is "
+            "thinner; take more triangles, or smooth it more: --sigma %.2g",
+            stats->cube_size, detail, ceil(10 * 1.5 * stats->cube_size / finest_cell / width) / 10);
     double wanted = arguments->options.triangles;
     if (wanted > 0 && fabs(mesh->triangle_count / wanted - 1) > 0.05)
         command_note("%u triangles: at no cube size tried were there %.0f; their number goes in steps",
