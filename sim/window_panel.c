@@ -39,12 +39,19 @@ const double app_no_pressure = 2e-9;
 static const float dark[3] = {0.02f, 0.02f, 0.025f}, light[3] = {0.75f, 0.75f, 0.72f},
                    yellow[3] = {0.9f, 0.6f, 0.05f}, blue[3] = {0.15f, 0.35f, 0.9f};
 
+/* Shorter where an eye's picture is narrow: each value can be reached. */
+static int track_width(const struct app *app)
+{
+    const int room = app_eye(app).width - NAME_WIDTH - 3 * MARGIN;
+    return room > TRACK_WIDTH ? TRACK_WIDTH : room > 1 ? room : 1;
+}
+
 struct panel_box app_slider(const struct app *app, enum live_dial dial)
 {
     const int bottom = app_eye(app).height - MARGIN - 2 * ROW;
     return (struct panel_box){MARGIN + NAME_WIDTH,
                               bottom - (LIVE_DIALS - (int)dial) * ROW + ROW / 2 - TRACK_HEIGHT / 2,
-                              TRACK_WIDTH, TRACK_HEIGHT};
+                              track_width(app), TRACK_HEIGHT};
 }
 
 struct panel_box app_time_slider(const struct app *app)
@@ -208,7 +215,7 @@ static void add_slider(struct app *app, const struct panel_box *track, double pa
 static void add_sliders(struct app *app)
 {
     const struct panel_box first = app_slider(app, 0), time = app_time_slider(app);
-    add(app, MARGIN / 2, first.y - ROW / 2, NAME_WIDTH + TRACK_WIDTH + 2 * MARGIN, LIVE_DIALS * ROW, dark,
+    add(app, MARGIN / 2, first.y - ROW / 2, NAME_WIDTH + first.width + 2 * MARGIN, LIVE_DIALS * ROW, dark,
         0.6f);
     add(app, MARGIN / 2, time.y - ROW / 2, app_eye(app).width - MARGIN, ROW + TRACK_HEIGHT / 2, dark, 0.72f);
     for (int i = 0; i < LIVE_DIALS; i++) {

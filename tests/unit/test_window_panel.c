@@ -191,10 +191,39 @@ static void nothing_covers_anything_in_any_layout(void **state)
     close_balloon(&b);
 }
 
+/* Half of a window of 400 x 300 is narrow: a knob beyond its border could not be taken. */
+static void sliders_end_within_an_eyes_picture(void **state)
+{
+    (void)state;
+    struct balloon b;
+    struct error err = {0};
+    struct app app = {.panel = true};
+    open_balloon(&b, 2, SETTINGS("time.integrator=symplectic-euler"));
+    assert_ok(live_open(&app.live, &b.sim, 64 << 20, &err), &err);
+    for (int width = 160; width < 700; width += 10) {
+        eye = (struct panel_box){0, 0, width, 300};
+        for (int dial = 0; dial < LIVE_DIALS; dial++) {
+            enum live_dial found = LIVE_DIALS;
+            const struct panel_box track = app_slider(&app, (enum live_dial)dial);
+            const int end = track.x + track.width;
+            assert_true(track.width > 0 && end <= width - 8);
+            assert_int_equal(app_find_slider(&app, end, track.y, &found), DRAG_DIAL);
+            assert_int_equal(found, dial);
+        }
+        assert_true(app_make_boxes(&app));
+        for (size_t i = 0; i < app.boxes.count; i++)
+            assert_true(app.boxes.items[i].x + app.boxes.items[i].width <= width);
+    }
+    free(app.boxes.items);
+    live_close(&app.live);
+    close_balloon(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_the_run_tells_is_on_the_picture),
                                        cmocka_unit_test(at_rest_there_is_no_energy),
+                                       cmocka_unit_test(sliders_end_within_an_eyes_picture),
                                        cmocka_unit_test(nothing_covers_anything_in_any_layout)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
