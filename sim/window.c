@@ -43,12 +43,22 @@ void app_show_title(struct app *app)
     window_redraw(app->window);
 }
 
+int app_dot(const struct app *app)
+{
+    enum { WIDTH = 600, HEIGHT = 450 }; /* dots that are enough */
+    int size[2];
+    orbit_eye_size(&app->view, size);
+    const int dot = size[0] / WIDTH < size[1] / HEIGHT ? size[0] / WIDTH : size[1] / HEIGHT;
+    return dot > 1 ? dot : 1;
+}
+
 struct panel_box app_eye(const struct app *app)
 {
+    const int dot = app_dot(app);
     int place[2] = {app->x, app->y}, size[2];
     orbit_eye_size(&app->view, size);
     orbit_eye_place(&app->view, place);
-    return (struct panel_box){app->x - place[0], app->y - place[1], size[0], size[1]};
+    return (struct panel_box){app->x - place[0], app->y - place[1], size[0] / dot, size[1] / dot};
 }
 
 /* The next tick, once a picture's time has passed since the last; in a pause it only looks for signals. */

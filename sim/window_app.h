@@ -15,7 +15,7 @@
 #include "sim/skins.h"
 #include "sim/window.h"
 
-/* Pixels, from the upper left corner. */
+/* Dots (app_dot), from the upper left corner of an eye's picture. */
 struct panel_box {
     int x, y, width, height;
 };
@@ -123,7 +123,12 @@ void app_restart(struct app *app);
 /* All that is left of the skin in the middle of the picture. */
 void app_see_all(struct app *app);
 
-/* The eye's picture that the pointer is in; each has all sliders and texts. */
+/* What lies over the picture is made of dots, of so many pixels a side: more than one in a large window,
+ * which is looked at from further away. */
+int app_dot(const struct app *app);
+
+/* The eye's picture that the pointer is in; each has all sliders and texts. Its corner is in pixels of the
+ * window, its size in dots. */
 struct panel_box app_eye(const struct app *app);
 
 /* window_keys.c: a key was pressed (struct window_events). */

@@ -220,6 +220,24 @@ static void count_frames(struct app *app, double begun)
     choose_outlines(app, now);
 }
 
+/* From dots to pixels. */
+static void enlarge(struct app *app, struct render_text *texts, size_t count)
+{
+    const int dot = app_dot(app);
+    for (size_t i = 0; i < count; i++) {
+        texts[i].x *= dot;
+        texts[i].y *= dot;
+        texts[i].scale *= dot;
+    }
+    for (size_t i = 0; i < app->boxes.count; i++) {
+        struct render_box *box = &app->boxes.items[i];
+        box->x *= dot;
+        box->y *= dot;
+        box->width *= dot;
+        box->height *= dot;
+    }
+}
+
 void app_draw(struct app *app)
 {
     struct render_text texts[WINDOW_TEXTS_MAX];
@@ -233,6 +251,7 @@ void app_draw(struct app *app)
         scene.boxes = app->boxes.items;
         scene.box_count = app->boxes.count;
     }
+    enlarge(app, texts, scene.text_count);
     if (!status)
         status = render_show(app->render, &view, &scene, &err);
     if (status) /* it is read in the next picture */

@@ -58,7 +58,7 @@ void app_moved(void *self, int x, int y, int modifiers)
     else if (app->drag == DRAG_PULL)
         pull(app);
     else if (app->drag == DRAG_DIAL || app->drag == DRAG_TIME)
-        app_drag_slider(app, x - app->pressed_eye.x);
+        app_drag_slider(app, (x - app->pressed_eye.x) / app_dot(app));
     if (app->drag != DRAG_NOTHING)
         window_redraw(app->window);
 }
@@ -71,11 +71,12 @@ static void begin_drag(struct app *app, enum window_button button, int modifiers
         app->drag = DRAG_TURN;
     } else {
         const struct panel_box eye = app->pressed_eye = app_eye(app);
-        app->drag = app_find_slider(app, app->x - eye.x, app->y - eye.y, &app->dial);
+        const int across = (app->x - eye.x) / app_dot(app), down = (app->y - eye.y) / app_dot(app);
+        app->drag = app_find_slider(app, across, down, &app->dial);
         if (app->drag == DRAG_NOTHING)
             app->drag = DRAG_TOOL;
         else
-            app_drag_slider(app, app->x - eye.x);
+            app_drag_slider(app, across);
     }
     app->pressed_x = app->x;
     app->pressed_y = app->y;

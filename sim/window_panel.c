@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Pixels. */
+/* Dots (app_dot). */
 enum {
     MARGIN = 8,
     ROW = 16,          /* a slider and its name */

@@ -31,6 +31,15 @@ quit
 log_has "pressure by slider" 'near(at(-1, "gauge_pressure"), 7.5)'
 log_has "step by slider" 'near(at(-1, "step"), 0.0025)'
 
+# In a window of twice 600 x 450 all that lies over the picture is twice as large.
+open_live --set view.size=[1200,900]
+pause
+picture dials-large
+click 524 708
+press period
+quit
+log_has "a slider of a large window" 'near(at(-1, "gauge_pressure"), 7.5)'
+
 # Springs ten times as stiff.
 open_live
 pause
