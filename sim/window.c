@@ -29,7 +29,14 @@ double app_seconds(void)
 
 void app_say(struct app *app, const char *text)
 {
+    app_complain(app, text);
+    app->message_left = WINDOW_NEWS_SECONDS;
+}
+
+void app_complain(struct app *app, const char *text)
+{
     hints_say(&app->hints, text);
+    app->message_left = 0;
     window_redraw(app->window);
 }
 
@@ -81,7 +88,7 @@ static void say_unless_ok(struct app *app, enum status status, const struct erro
 {
     if (!status)
         return;
-    app_say(app, err->text);
+    app_complain(app, err->text);
     app_show_title(app);
 }
 

@@ -37,7 +37,7 @@ struct window_bands {
 };
 
 /* What the run has told of late, the oldest first. */
-enum { WINDOW_NEWS = 3 };
+enum { WINDOW_NEWS = 3, WINDOW_NEWS_SECONDS = 8 };
 struct window_news {
     struct window_news_item {
         char line[512];
@@ -101,6 +101,7 @@ struct app {
         size_t count, capacity;
     } boxes;
     struct hints hints;
+    double message_left; /* s for which its message is still shown while time goes on; 0: it stays */
     struct news telling;
     struct window_news news;
     struct error failed; /* what ended the program */
@@ -109,8 +110,9 @@ struct app {
 /* window.c: of a clock that only goes forwards. */
 double app_seconds(void);
 
-/* A line for the user, "" for none. */
+/* A line for the user that goes by, as news do; one that stays until Escape or the next: what went wrong. */
 void app_say(struct app *app, const char *text);
+void app_complain(struct app *app, const char *text);
 void app_show_title(struct app *app);
 
 /* Goes on or stops; one step; sets a dial; shows a frame of the past; begins anew. */
@@ -188,9 +190,9 @@ size_t app_texts(struct app *app, struct render_text texts[WINDOW_TEXTS_MAX]);
 /* The keys are listed, and there is no room for anything beside them. */
 bool app_help_alone(const struct app *app);
 
-/* window_news.c: hears a line, as struct news asks for; so many seconds have passed with time going on, which
- * do not count while the list of keys is in their place; what is later than the state that is shown has not
- * happened. */
+/* window_news.c: hears a line, as struct news asks for; so many seconds have passed with time going on, for
+ * what goes by: of news they do not count while the list of keys is in their place; what is later than the
+ * state that is shown has not happened. */
 void app_hear(void *self, double time, const char *line);
 void app_pass_news(struct app *app, double seconds);
 void app_forget_news(struct app *app);

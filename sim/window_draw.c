@@ -254,8 +254,10 @@ void app_draw(struct app *app)
     enlarge(app, texts, scene.text_count);
     if (!status)
         status = render_show(app->render, &view, &scene, &err);
-    if (status) /* it is read in the next picture */
+    if (status) { /* it is read in the next picture */
         hints_say(&app->hints, err.text);
+        app->message_left = 0;
+    }
     count_frames(app, begun);
 }
 

@@ -48,7 +48,10 @@ void app_record(struct app *app)
     }
     enum status status = begin(app, &err);
     snprintf(text, sizeof text, "recording %s", app->recording);
-    app_say(app, status ? err.text : text);
+    if (status)
+        app_complain(app, err.text);
+    else
+        app_say(app, text);
     app->live.each_frame = !status;
     app->recorded = -1;
     app_show_title(app);
@@ -68,7 +71,7 @@ void app_record_frame(struct app *app)
     if (!status)
         return;
     app_end_recording(app);
-    app_say(app, err.text);
+    app_complain(app, err.text);
 }
 
 void app_end_recording(struct app *app)
@@ -81,7 +84,10 @@ void app_end_recording(struct app *app)
     app->film = NULL;
     app->live.each_frame = false;
     snprintf(text, sizeof text, "%s is written", app->recording);
-    app_say(app, status ? err.text : text);
+    if (status)
+        app_complain(app, err.text);
+    else
+        app_say(app, text);
     app_show_title(app);
 }
 
@@ -97,5 +103,8 @@ void app_save_picture(struct app *app)
     if (!status)
         status = image_save_png(&app->image, name, NULL, 0, &err);
     snprintf(text, sizeof text, "%s is written", name);
-    app_say(app, status ? err.text : text);
+    if (status)
+        app_complain(app, err.text);
+    else
+        app_say(app, text);
 }

@@ -120,6 +120,21 @@ static void what_the_run_tells_is_on_the_picture(void **state)
     close_balloon(&b);
 }
 
+/* What a key did is no longer said eight seconds later; what went wrong stays. */
+static void messages_go_by_and_complaints_stay(void **state)
+{
+    (void)state;
+    struct app app = {.message_left = 8};
+    hints_say(&app.hints, "stereo: one eye");
+    app_pass_news(&app, 7.5);
+    assert_string_equal(app.hints.message, "stereo: one eye");
+    app_pass_news(&app, 1);
+    assert_string_equal(app.hints.message, "");
+    hints_say(&app.hints, "dog-1.png: No space left on device");
+    app_pass_news(&app, 100);
+    assert_string_equal(app.hints.message, "dog-1.png: No space left on device");
+}
+
 /* At rest the terms of a law of rubber leave their last bits, of either sign: they are shown as nothing; what
  * is stretched by a hundred-thousandth is not. */
 static void at_rest_there_is_no_energy(void **state)
@@ -222,6 +237,7 @@ static void sliders_end_within_an_eyes_picture(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_the_run_tells_is_on_the_picture),
+                                       cmocka_unit_test(messages_go_by_and_complaints_stay),
                                        cmocka_unit_test(at_rest_there_is_no_energy),
                                        cmocka_unit_test(sliders_end_within_an_eyes_picture),
                                        cmocka_unit_test(nothing_covers_anything_in_any_layout)};
