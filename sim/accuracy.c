@@ -109,11 +109,11 @@ static double best_seconds(struct accuracy_plan *plan, const struct accuracy_dia
     return seconds;
 }
 
-/* By which power of the steps' number the error fell. */
+/* By which power of the steps' number the error fell; of a few steps more that would say nothing. */
 static double order_between(const struct accuracy_row *coarse, const struct accuracy_row *fine)
 {
-    const double steps = log((double)fine->steps / (double)coarse->steps);
-    return steps > 0 ? log(coarse->error / fine->error) / steps : (double)NAN;
+    const double steps = (double)fine->steps / (double)coarse->steps;
+    return steps >= 1.1 ? log(coarse->error / fine->error) / log(steps) : (double)NAN;
 }
 
 static void add_row(struct accuracy_plan *plan, struct ladder *ladder, struct accuracy_row *row)

@@ -60,7 +60,8 @@ struct accuracy_row {
     double linear_iterations;    /* each two products with the forces' derivatives */
     double seconds;              /* for the span */
     double error;                /* RMS over the points, in mean radii at rest */
-    double order; /* by which it fell since the row before when steps became more; NAN: there is none */
+    double
+        order; /* by which it fell since the row before when steps became a tenth more; NAN: they did not */
     double volume, pressure, energy; /* relative errors; NAN: of nothing */
     bool best;                       /* no other row but one of auto has less of both error and seconds */
     char chose[48];                  /* auto: the method, and in how many substeps; else "" */
