@@ -72,9 +72,11 @@ struct effect {
     /* EFFECT_FORCES: adds to rows (guard.h) by how much its forces on each point can change; guard_outdated()
      * when that is no longer true. NULL: they are constant, and do no work. */
     void (*bound)(const struct sim *sim, const struct sim_balloon *balloon, const struct guard_rows *rows);
-    /* EFFECT_FORCES: the longest step, s, that follows what it lets flow between balloons, whatever the
-     * method, by what the gas's bound has just found. NULL: nothing flows. */
+    /* EFFECT_FORCES: the longest step, s, that follows what it moves beside the points, by what bounds have
+     * just found: what flows between balloons, or a weight. NULL: any step does. What that is, and why it is
+     * fast. */
     double (*follow)(const struct sim *sim, const struct sim_balloon *balloon);
+    const char *follows, *follows_why;
     bool damps; /* EFFECT_FORCES: its forces depend on velocities */
     const char *source;
 };

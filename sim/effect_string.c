@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { STRING_PLACE, STRING_SPEED = 3, STRING_SCALARS = 6 };
+enum { STRING_PLACE, STRING_SPEED = 3 }; /* of the weight, a body of sim.h */
 
 struct string {
     const struct scene_string *scene;
@@ -52,7 +52,7 @@ static enum status open(struct sim *sim, struct sim_balloon *b, struct error *er
     enum status status = patch_find(sim, b, string->scene->place, string->scene->reach, &string->point,
                                     &string->count, err);
     if (!status && string->weight > 0)
-        status = sim_add_scalars(sim, STRING_SCALARS, &string->scalar, err);
+        status = sim_add_body(sim, &string->scalar, err);
     if (status)
         return status;
     double mean[3];
@@ -155,13 +155,21 @@ static void product(struct sim *sim, struct sim_balloon *b, double a, double (*d
 /* By how much of its length a string may be shorter and be taut soon. */
 static const double near = 0.1, far = 0.2;
 
+/* As long as it may be two steps on, whichever way its ends move: one that came taut within a long step would
+ * be stretched by all of that before anybody asked for shorter ones. */
+static double soon(const struct sim *sim, const struct pull *pull)
+{
+    return pull->length + 2 * sim->whole_step * vec3_length(pull->speed);
+}
+
 /* A point feels its share, and what is stretched already pulls; and a weight that swings faster than the
  * point would is made up for by more of it. What hangs slack asks for nothing. */
 static void bound(const struct sim *sim, const struct sim_balloon *b, const struct guard_rows *rows)
 {
     struct string *string = b->string;
-    const double length = pull_of(sim, string).length, stretched = fmax(0, length - string->length);
-    string->bounded = length >= (1 - near) * string->length;
+    const struct pull pull = pull_of(sim, string);
+    const double stretched = fmax(0, pull.length - string->length);
+    string->bounded = soon(sim, &pull) >= (1 - near) * string->length;
     if (!string->bounded)
         return;
     for (uint32_t k = 0; k < string->count; k++) {
@@ -174,11 +182,26 @@ static void bound(const struct sim *sim, const struct sim_balloon *b, const stru
     }
 }
 
+/* A weight that bounces on its string comes taut anywhere within a step, and bounces higher, time and again,
+ * where a step is not well below the time of a bounce; methods that solve equations have no derivatives of
+ * it, and come to its place by turns with the skin's; one that chooses its steps goes by how the skin
+ * moves. */
+static double follow(const struct sim *sim, const struct sim_balloon *b)
+{
+    const struct string *string = b->string;
+    (void)sim;
+    if (string->weight == 0 || !string->bounded)
+        return INFINITY;
+    const double k = string->scene->stiffness / string->weight, d = string->scene->damping / string->weight;
+    return 0.25 / (d + sqrt(d * d + k / 2)); /* d h + k h^2 is an eighth at most */
+}
+
 static void after(struct sim *sim, struct sim_balloon *b)
 {
     const struct string *string = b->string;
     const double least = 1 - (string->bounded ? far : near);
-    if ((pull_of(sim, string).length >= least * string->length) != string->bounded)
+    const struct pull pull = pull_of(sim, string);
+    if ((soon(sim, &pull) >= least * string->length) != string->bounded)
         guard_bound_outdated(sim);
 }
 
@@ -223,7 +246,7 @@ static enum status check(struct sim *sim, struct sim_balloon *b, struct error *e
 {
     const struct string *string = b->string;
     double sum = 0; /* no number where one of them is none */
-    for (int i = 0; string->weight > 0 && i < STRING_SCALARS; i++)
+    for (int i = 0; string->weight > 0 && i < SIM_BODY_SCALARS; i++)
         sum += 0 * sim->scalar[string->scalar + (uint32_t)i];
     if (sum == 0)
         return STATUS_OK;
@@ -245,6 +268,10 @@ const struct effect effect_string = {.name = "string",
                                      .reorder = reorder,
                                      .product = product,
                                      .bound = bound,
+                                     .follow = follow,
+                                     .follows = "the weight on the string",
+                                     .follows_why = "which pulls it back so fast; a heavier one or a softer "
+                                                    "string would ask for less",
                                      .check = check,
                                      .energy = energy,
                                      .power = power,

@@ -95,10 +95,13 @@ static double follow(const struct sim *sim, const struct sim_balloon *b)
     return longest;
 }
 
-const struct effect effect_tube = {.name = "tube",
-                                   .phase = EFFECT_FORCES,
-                                   .wanted = wanted,
-                                   .apply = apply,
-                                   .after = after,
-                                   .follow = follow,
-                                   .source = "Saint-Venant & Wantzel 1839; Poiseuille 1840"};
+const struct effect effect_tube = {
+    .name = "tube",
+    .phase = EFFECT_FORCES,
+    .wanted = wanted,
+    .apply = apply,
+    .after = after,
+    .follow = follow,
+    .follows = "what flows in the tube",
+    .follows_why = "which evens pressures out so fast; a smaller tube.area would ask for less",
+    .source = "Saint-Venant & Wantzel 1839; Poiseuille 1840"};

@@ -44,7 +44,9 @@ static enum status symplectic_euler(struct sim *sim, double dt, struct error *er
 {
     (void)err;
     sim_forces_then(sim, &(struct sim_move){velocity_first, dt});
+    sim_hold_bodies(sim, sim->scalar_rate);
     advance_scalars(sim, dt);
+    sim_drift_bodies(sim, dt, NULL);
     return STATUS_OK;
 }
 

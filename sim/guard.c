@@ -154,11 +154,8 @@ static const char *cause_of(const struct sim *sim, const struct sim_balloon *b)
 
 void guard_describe_follow(const struct sim *sim, const struct guard_follow *follow, char *text, size_t size)
 {
-    snprintf(
-        text, size,
-        "steps up to %.3g follow what flows in the tube of balloons[%zu], which evens pressures out so fast; a "
-        "smaller tube.area would ask for less",
-        follow->step, (size_t)(follow->balloon - sim->balloons));
+    snprintf(text, size, "steps up to %.3g follow %s of balloons[%zu], %s", follow->step,
+             follow->effect->follows, (size_t)(follow->balloon - sim->balloons), follow->effect->follows_why);
 }
 
 static void describe(struct sim *sim, bool is_refused, char *text, size_t size)
@@ -179,8 +176,8 @@ static void describe(struct sim *sim, bool is_refused, char *text, size_t size)
     else if (parts > 1)
         used = snprintf(text, size, "time.step %g is too large%s: ", step,
                         sim->scene->time.guard == SCENE_GUARD_SUBSTEP ? " to be split" : "");
-    if (memory->cause == GUARD_TUBE) {
-        const struct guard_follow follow = {stable, &sim->balloons[b]};
+    if (memory->cause == GUARD_FOLLOW && guard_following(sim).effect) {
+        const struct guard_follow follow = guard_following(sim);
         guard_describe_follow(sim, &follow, text + used, size - (size_t)used);
         return;
     }

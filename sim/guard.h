@@ -40,9 +40,10 @@ struct guard_rows {
     double *push;      /* the largest force that can do work on the point out of nothing, as pressure does */
 };
 
-/* What asks for the shortest step of all that flows between balloons. */
+/* What asks for the shortest step of all that moves beside the points (struct effect, follow). */
 struct guard_follow {
     double step; /* s: the longest that follows it; INFINITY: any does */
+    const struct effect *effect;
     const struct sim_balloon *balloon;
 };
 
@@ -67,7 +68,7 @@ void guard_cut(struct sim *sim, const struct sim_balloon *balloon, uint32_t poin
 /* The largest step that is surely stable as things are: INFINITY when any is, 0 when none is. */
 double guard_stable_step(struct sim *sim);
 
-/* What flows between balloons asks of a step, whatever the method, by what the last bound took pressures for.
+/* What flows between balloons or hangs on strings asks of a step, by what the last bound took pressures for.
  * Nothing that the future depends on changes. */
 struct guard_follow guard_following(const struct sim *sim);
 
@@ -75,7 +76,7 @@ struct guard_follow guard_following(const struct sim *sim);
 void guard_describe_follow(const struct sim *sim, const struct guard_follow *follow, char *text, size_t size);
 
 /* The longest step that a method which chooses its own may try: it goes by how the points move, and sees
- * nothing of what flows between balloons. INFINITY where nothing does, and with time.guard = "off".
+ * nothing of what moves beside them. INFINITY where nothing does, and with time.guard = "off".
  * Error: STATUS_DIVERGED when a step would be split in more than GUARD_PARTS_MAX. */
 enum status guard_longest_step(struct sim *sim, double *longest, struct error *err);
 

@@ -276,12 +276,12 @@ static void find_sharpest(struct sim *sim, const struct limits *l)
 
 struct guard_follow guard_following(const struct sim *sim)
 {
-    struct guard_follow follow = {INFINITY, NULL};
+    struct guard_follow follow = {INFINITY, NULL, NULL};
     for (size_t i = 0; i < sim->hook_count[EFFECT_FORCES]; i++) {
         const struct effect_hook *hook = &sim->hooks[EFFECT_FORCES][i];
         const double step = hook->effect->follow ? hook->effect->follow(sim, hook->balloon) : INFINITY;
         if (step < follow.step)
-            follow = (struct guard_follow){step, hook->balloon};
+            follow = (struct guard_follow){step, hook->effect, hook->balloon};
     }
     return follow;
 }
@@ -302,7 +302,7 @@ void guard_find_bound(struct sim *sim)
     if (follow.step < memory->stable) {
         memory->stable = follow.step;
         memory->point = follow.balloon->point_begin;
-        memory->cause = GUARD_TUBE;
+        memory->cause = GUARD_FOLLOW;
     }
     memory->broken = sim->broken;
     memory->is_known = GUARD_KNOWN;

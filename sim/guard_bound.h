@@ -8,7 +8,7 @@ enum guard_cause {
     GUARD_SPRINGS,
     GUARD_DAMPERS,
     GUARD_PRESSURE,
-    GUARD_TUBE,
+    GUARD_FOLLOW,
     GUARD_EFFECTS /* the first of sim->hooks[EFFECT_FORCES]; those after it follow */
 };
 
@@ -29,7 +29,7 @@ struct guard {
         double reach;      /* the most that sqrt(2 E) can be by now */
         double least;      /* and the least that counts: rounding moves points too */
         uint64_t broken;   /* edges, when the bound was found */
-        uint32_t point;    /* where it is tightest; of a tube, the first of its balloon */
+        uint32_t point;    /* where it is tightest; where it follows what is none, the first of its balloon */
         uint32_t cause;    /* enum guard_cause, or after: what asks for most of it there */
         uint64_t is_known; /* enum guard_known */
     } memory;

@@ -84,22 +84,59 @@ static void place_points(struct sim *sim, double c)
                    (struct vector_term[]){{c, sim->velocity}}, 1);
 }
 
-/* Scalars by their rates; returns the largest change of one against its size. */
-static double follow_scalars(struct sim *sim, double c)
+/* Speeds by their rates, and places by those speeds: so a body that swings settles in the square of what it
+ * takes where places go by speeds of before. Returns how far the farthest moved, beyond rounding. */
+static double follow_bodies(struct sim *sim, double c, const double *base)
+{
+    double farthest = 0;
+    for (const struct sim_body *b = sim->body; b < sim->body + sim->body_count; b++) {
+        double moved = 0, size = 0;
+        for (uint32_t i = 0; i < 3; i++) {
+            double *place = &sim->scalar[b->place + i], *speed = &sim->scalar[b->speed + i];
+            const double before = *place;
+            *speed = base[b->speed + i] + c * sim->scalar_rate[b->speed + i];
+            *place = base[b->place + i] + c * *speed;
+            moved += (*place - before) * (*place - before);
+            size += *place * *place;
+        }
+        if (!(moved <= 0x1p-100 * size))
+            farthest = fmax(farthest, sqrt(moved));
+    }
+    return farthest;
+}
+
+static bool is_of_body(const struct sim *sim, uint32_t scalar)
+{
+    for (uint32_t i = 0; i < sim->body_count; i++)
+        if (scalar >= sim->body[i].place && scalar < sim->body[i].place + SIM_BODY_SCALARS)
+            return true;
+    return false;
+}
+
+struct change {
+    double scalar; /* the largest of one against its size, of those that are of no body */
+    double body;   /* the farthest way of one */
+};
+
+/* Scalars by their rates. */
+static struct change follow_scalars(struct sim *sim, double c)
 {
     const double *base = sim->scalar_scratch[IMPLICIT_BASE_VELOCITY];
     double change = 0;
+    const double way = follow_bodies(sim, c, base);
     for (uint32_t i = 0; i < sim->scalar_count; i++) {
+        if (is_of_body(sim, i))
+            continue;
         const double scalar = base[i] + c * sim->scalar_rate[i];
         if (i < sim_state_scalars(sim)) /* what only records must not decide when the iteration ends */
             change = fmax(change, fabs(scalar - sim->scalar[i]) / fmax(fabs(scalar), fabs(base[i])));
         sim->scalar[i] = scalar;
     }
-    return change;
+    return (struct change){change, way};
 }
 
 /* Forces at the present guess, and scalars by their rates there. */
-static double evaluate(struct sim *sim, double c)
+static struct change evaluate(struct sim *sim, double c)
 {
     sim_forces(sim);
     return follow_scalars(sim, c);
@@ -185,10 +222,10 @@ static bool newton(struct sim *sim, double c, double *size)
 
 bool implicit_solve(struct sim *sim, double c)
 {
-    double first = 0, before = INFINITY, size;
+    double first = 0, first_way = 0, before = INFINITY, size;
     place_points(sim, c);
     for (int i = 0; i < NEWTON_ITERATIONS_MAX; i++, before = size) {
-        const double scalar_change = evaluate(sim, c);
+        const struct change change = evaluate(sim, c);
         if (!newton(sim, c, &size))
             return false;
         const bool grows = i > 1 && size > before, is_noise = grows && size <= NOISE * rounding(sim, c);
@@ -197,7 +234,9 @@ bool implicit_solve(struct sim *sim, double c)
         first = fmax(first, size);
         const double left = i == 0 ? linear_tolerance * size : size * (size / before);
         const bool is_small = is_noise || (i > 0 && left <= newton_tolerance * first);
-        if ((is_small && scalar_change <= newton_tolerance) || size <= rounding(sim, c)) {
+        first_way = fmax(first_way, change.body);
+        const bool is_still = change.body <= newton_tolerance * first_way;
+        if (is_still && ((is_small && change.scalar <= newton_tolerance) || size <= rounding(sim, c))) {
             evaluate_scalars(sim, c);
             return true;
         }

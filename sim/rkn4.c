@@ -12,8 +12,8 @@
  * other, so the order stays 4 with damping, at 28 forces a step: rk4 is then the cheaper one, and nothing
  * is left to be symplectic about.
  *
- * Scalars flow during the kicks, as velocities do; where they are gas, on which forces depend, kicks are
- * solved as with damping.
+ * Scalars flow during the kicks, as velocities do, and places of bodies among them during the drifts; where
+ * they are gas, on which forces depend, kicks are solved as with damping.
  */
 #include "sim/rkn4.h"
 #include "sim/effect_gas.h"
@@ -68,9 +68,16 @@ static void kick_scalars(struct sim *sim, double dt)
     vector_copy(sim, sim->scratch[1], sim->velocity);
     vector_add(sim, sim->velocity, dt / 2, sim->scratch[0]);
     sim_forces(sim);
+    sim_hold_bodies(sim, sim->scalar_rate);
     for (uint32_t i = 0; i < sim->scalar_count; i++)
         sim->scalar[i] += dt * sim->scalar_rate[i];
     vector_copy(sim, sim->velocity, sim->scratch[1]);
+}
+
+static void drift(struct sim *sim, double dt)
+{
+    vector_add(sim, sim->position, dt, sim->velocity);
+    sim_drift_bodies(sim, dt, NULL);
 }
 
 static void advance_conservative(struct sim *sim, double dt)
@@ -78,7 +85,7 @@ static void advance_conservative(struct sim *sim, double dt)
     struct rkn4 *rkn4 = sim->method;
     for (int k = 0; k < RKN4_KICKS; k++) {
         if (k > 0)
-            vector_add(sim, sim->position, dt * rkn4_drift[k], sim->velocity);
+            drift(sim, dt * rkn4_drift[k]);
         if (k > 0 || !rkn4->remembers || sim->changed)
             evaluate(sim);
         if (sim->scalar_count > 0)
@@ -113,6 +120,7 @@ static void kick_damped(struct sim *sim, double dt)
             sim->scalar[s] = scalar[s] + dt * node[i] * rate[i - 1][s];
         sim_forces(sim);
         vector_over_mass(sim, sim->scratch[i], sim->force);
+        sim_hold_bodies(sim, sim->scalar_rate);
         copy(rate[i], sim->scalar_rate, scalars);
         terms[i] = (struct vector_term){dt * weight[i], sim->scratch[i]};
     }
@@ -127,7 +135,7 @@ static void advance_damped(struct sim *sim, double dt)
 {
     for (int k = 0; k < RKN4_KICKS; k++) {
         if (k > 0)
-            vector_add(sim, sim->position, dt * rkn4_drift[k], sim->velocity);
+            drift(sim, dt * rkn4_drift[k]);
         kick_damped(sim, dt * rkn4_kick[k]);
     }
     ((struct rkn4 *)sim->method)->remembers = 0;

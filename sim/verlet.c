@@ -46,6 +46,7 @@ static void remember(struct sim *sim)
     vector_over_mass(sim, sim->scratch[0], sim->force);
     for (uint32_t i = 0; i < sim->scalar_count; i++)
         sim->scalar_scratch[0][i] = sim->scalar_rate[i];
+    sim_hold_bodies(sim, sim->scalar_scratch[0]);
 }
 
 /* The first half: velocities are left at the end of the step, as they are predicted. */
@@ -93,8 +94,10 @@ static enum status advance(struct sim *sim, double dt, struct error *err)
     }
     verlet->remembers = 1;
     sim_each_part(sim, part_predict, &dt);
+    sim_drift_bodies(sim, dt, sim->scalar_scratch[0]);
     advance_scalars(sim, dt, 1, 0);
     sim_forces_then(sim, &(struct sim_move){correct, dt});
+    sim_hold_bodies(sim, sim->scalar_rate);
     advance_scalars(sim, dt, -0.5, 0.5);
     for (uint32_t i = 0; i < sim->scalar_count; i++)
         sim->scalar_scratch[0][i] = sim->scalar_rate[i];
