@@ -109,17 +109,66 @@ enum status sheet_add(struct sheet *sheet, const struct image *image, double tim
     return STATUS_OK;
 }
 
+/* Takes the moments nearest to so many places that are even along the way; returns how many that are, since
+ * steps of the way may be longer than those between places. */
+static int take_nearest(const struct sheet *sheet, int places, bool taken[SHEET_KEPT])
+{
+    int count = 0, at = 0;
+    memset(taken, 0, SHEET_KEPT * sizeof *taken);
+    for (int k = 0; k < places; k++) {
+        const double wanted = (double)k / (places > 1 ? places - 1 : 1);
+        while (at + 1 < sheet->count &&
+               fabs(way_of(sheet, at + 1) - wanted) <= fabs(way_of(sheet, at) - wanted))
+            at++;
+        count += !taken[at];
+        taken[at] = true;
+    }
+    return count;
+}
+
+/* Takes one more: in the longest step between two that are taken and have others between them, that
+ * which is nearest to its middle. */
+static void take_one(const struct sheet *sheet, bool taken[SHEET_KEPT])
+{
+    double longest = -1, least = INFINITY;
+    int from = 0, to = 0, found = 0;
+    for (int i = 1, before = 0; i < sheet->count; i++) {
+        if (!taken[i])
+            continue;
+        if (i > before + 1 && way_of(sheet, i) - way_of(sheet, before) > longest) {
+            longest = way_of(sheet, i) - way_of(sheet, before);
+            from = before;
+            to = i;
+        }
+        before = i;
+    }
+    const double middle = (way_of(sheet, from) + way_of(sheet, to)) / 2;
+    for (int i = from + 1; i < to; i++)
+        if (fabs(way_of(sheet, i) - middle) < least) {
+            least = fabs(way_of(sheet, i) - middle);
+            found = i;
+        }
+    taken[found] = true;
+}
+
 int sheet_choose(const struct sheet *sheet, int chosen[SHEET_MOMENTS])
 {
-    int count = sheet->count < SHEET_MOMENTS ? sheet->count : SHEET_MOMENTS;
-    int next = 0;
-    for (int k = 0; k < count; k++) {
-        int last = sheet->count - (count - k); /* leaves one for each that follows */
-        const double wanted = (double)k / (count > 1 ? count - 1 : 1);
-        while (next < last && fabs(way_of(sheet, next + 1) - wanted) <= fabs(way_of(sheet, next) - wanted))
-            next++;
-        chosen[k] = next++;
+    enum { PLACES_MOST = 1000 };
+    const int count = sheet->count < SHEET_MOMENTS ? sheet->count : SHEET_MOMENTS;
+    bool taken[SHEET_KEPT], more[SHEET_KEPT];
+    int have = take_nearest(sheet, count, taken);
+    for (int places = count + 1; places < PLACES_MOST; places++) {
+        const int found = take_nearest(sheet, places, more);
+        if (found > count)
+            break;
+        have = found;
+        memcpy(taken, more, sizeof taken);
     }
+    for (; have < count; have++)
+        take_one(sheet, taken);
+    for (int i = 0, k = 0; i < sheet->count && k < count; i++)
+        if (taken[i])
+            chosen[k++] = i;
     return count;
 }
 

@@ -73,6 +73,31 @@ static void most_moments_of_a_burst_are_of_what_breaks(void **state)
     sheet_clear(&sheet);
 }
 
+/* All five pictures of what breaks and the one before are shown, and the others are far from each other. */
+static void few_pictures_of_what_breaks_crowd_no_others(void **state)
+{
+    (void)state;
+    struct error err;
+    struct sheet sheet = {.counted = "edges broken"};
+    struct image image = a_picture(30, 20);
+    int chosen[SHEET_MOMENTS];
+    for (int n = 0; n < 45; n++) {
+        memset(image.rgb, 3 * n, 3 * 30 * 20);
+        sheet.count_now = n < 40 ? 0 : 7 * (n - 39);
+        assert_ok(sheet_add(&sheet, &image, n, &err), &err);
+    }
+    assert_int_equal(sheet_choose(&sheet, chosen), 12);
+    for (int k = 1; k < 12; k++) {
+        const double step = sheet.moments[chosen[k]].time - sheet.moments[chosen[k - 1]].time;
+        if (k >= 7)
+            assert_true(step == 1);
+        else
+            assert_true(step >= 3);
+    }
+    image_clear(&image);
+    sheet_clear(&sheet);
+}
+
 static void a_still_run_is_spaced_evenly_in_time(void **state)
 {
     (void)state;
@@ -148,6 +173,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_sheet_shows_what_changes_evenly),
         cmocka_unit_test(most_moments_of_a_burst_are_of_what_breaks),
+        cmocka_unit_test(few_pictures_of_what_breaks_crowd_no_others),
         cmocka_unit_test(a_still_run_is_spaced_evenly_in_time),
         cmocka_unit_test(times_are_written_so_that_each_is_told_from_the_next),
         cmocka_unit_test(a_sheet_of_few_large_pictures_shows_them_all_reduced),
