@@ -96,16 +96,16 @@ static void describe_state(const struct app *app, char *text, size_t size)
     char active[200], error[60];
     describe_effects(app, active, sizeof active);
     describe_error(app, error, sizeof error);
-    const char *going = app->live.paused ? "paused" : "";
-    char speed[40] = "";
+    char going[80] = "paused";
     if (!app->live.paused)
-        snprintf(speed, sizeof speed, "%.2g x", app->live.speed);
+        snprintf(going, sizeof going, "%.2g x  %.0f steps/s  %.0f frames/s", app->live.speed, app->live.rate,
+                 app->frames_rate);
     snprintf(text, size,
-             "%.3f s  %s%s  %.0f steps/s  %.0f frames/s\nenergy %.4g moving + %.4g in the skin   error %s\n"
+             "%.3f s  %s\nenergy %.4g moving + %.4g in the skin   error %s\n"
              "%u triangles in %u piece%s   effects: %s   F1 help",
-             app->live.sim->time, going, speed, app->live.rate, app->frames_rate,
-             unless_rounding(app, m->kinetic_energy), unless_rounding(app, m->elastic_energy), error,
-             m->triangles_active, m->pieces, m->pieces == 1 ? "" : "s", active);
+             app->live.sim->time, going, unless_rounding(app, m->kinetic_energy),
+             unless_rounding(app, m->elastic_energy), error, m->triangles_active, m->pieces,
+             m->pieces == 1 ? "" : "s", active);
 }
 
 struct page {

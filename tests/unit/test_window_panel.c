@@ -158,6 +158,8 @@ static void at_rest_there_is_no_energy(void **state)
         assert_ok(live_open(&app.live, &b.sim, 64 << 20, &err), &err);
         app.rounding = app_find_rounding(&b.sim);
         app.live.paused = true;
+        app.live.rate = 400; /* of before the pause */
+        assert_int_equal(count_texts(&app, "steps/s", &text), 0);
         assert_int_equal(count_texts(&app, "energy 0 moving + 0 in the skin", &text), 1);
         assert_int_equal(count_texts(&app, "e-", &text), 0);
         for (uint32_t p = 0; p < b.sim.point_count; p++)
