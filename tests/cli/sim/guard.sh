@@ -18,6 +18,12 @@ expect 0 balloon-sim m.ply --set time.guard=substep --set time.integrator=xpbd -
 stdout_has 'time.step 0.025 is split in [0-9]+: .* surely stable for xpbd; most of that is for the drag at point [0-9]+ of'
 expect 0 balloon-sim m.ply --set time.integrator=xpbd --set balloons[0].spring=1e6 --check
 stdout_has 'every step is stable for xpbd$'
+# A weight on a string is none of the points that a method solves for: what it asks for is told, and refused where no split would do.
+weight='--set balloons[0].string.stiffness=1e12 --set time.integrator=bdf2 --set time.guard=substep'
+expect 0 balloon-sim m.ply $weight --set balloons[0].string.weight=1 --check
+stdout_has 'time.step 0.025 is split in [0-9]+: steps up to 3.54e-07 follow the weight on the string of balloons\[0\], .*softer string'
+refused 3 'refused at time 0: time.step 0.025 is too large to be split: steps up to .* follow the weight on the string' \
+    balloon-sim m.ply $weight --set balloons[0].string.weight=1e-6 --hash
 refused 1 'guard is "maybe"; it must be one of "substep", "refuse", "off"' balloon-sim m.ply --set time.guard=maybe
 
 expect 0 balloon-sim m.ply $large --set time.guard=substep --check
