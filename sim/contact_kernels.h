@@ -66,6 +66,13 @@ static inline float contact_until(float gone, float further)
     return gone + 0.999F * further - 1e-6F * gone;
 }
 
+/* Whether it does; path as in the sieve. */
+static inline bool contact_sleeps(const struct contact_pair *pair, const float *path)
+{
+    const uint32_t *p = pair->point;
+    return path[p[0]] + path[p[1]] + path[p[2]] + path[p[3]] <= pair->until;
+}
+
 struct contact_kernels {
     /* Of a box of each of two groups those that meet: couples[i] becomes their numbers in a and b; returns
      * how many there are. There is room for all. Of a group and itself each two boxes are a couple once. */
@@ -93,10 +100,10 @@ struct contact_kernels {
                      uint32_t count, uint32_t *open, float *clear);
 
     /*
-     * Which of pairs[which[0]] to pairs[which[count - 1]] do not sleep and may touch, by how far their
-     * points are from their lines: near becomes which ones, in order, and the call returns how many. Others
-     * that do not sleep go to sleep. which NULL: the pairs from the first on. There is room for a multiple
-     * of eight in all but near, and pairs have points there too.
+     * Which of pairs[which[0]] to pairs[which[count - 1]], none of which sleeps, may touch, by how far their
+     * points are from their lines: near becomes which ones, in order, and the call returns how many. Where
+     * there are paths the others go to sleep. which NULL: the pairs from the first on. There is room for a
+     * multiple of eight in all but near, and pairs have points there too.
      */
     uint32_t (*sift)(const struct contact_sieve *sieve, struct contact_pair *pairs, const uint32_t *which,
                      uint32_t count, uint32_t *near);

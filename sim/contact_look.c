@@ -134,6 +134,47 @@ static void begin_look(struct sieve *sieve, const struct look *look)
     sieve->count[0] = sieve->count[1] = 0;
 }
 
+/* Takes in those of them that may touch; `which` has room for a multiple of eight. */
+static void take_some_in(struct sieve *sieve, uint32_t *which, uint32_t count)
+{
+    const struct contact *c = sieve->look->sim->contact;
+    uint32_t near[PAIRS_AT_ONCE];
+    for (uint32_t i = count; i % 8 != 0; i++)
+        which[i] = which[count - 1];
+    count = c->tree.kernels->sift(&sieve->look->by, c->pairs, which, count, near);
+    for (uint32_t i = 0; i < count; i++)
+        take_in(sieve, near[i]);
+}
+
+static void take_all_in(struct sieve *sieve, uint32_t begin, uint32_t end)
+{
+    const struct contact *c = sieve->look->sim->contact;
+    uint32_t near[PAIRS_AT_ONCE];
+    const uint32_t count = c->tree.kernels->sift(&sieve->look->by, &c->pairs[begin], NULL, end - begin, near);
+    for (uint32_t i = 0; i < count; i++)
+        take_in(sieve, begin + near[i]);
+}
+
+/* Where skin rests on skin most sleep, so that a look at each for that comes before one at eight. */
+static uint32_t leave_sleepers_out(const struct contact *c, uint32_t *which, uint32_t count)
+{
+    uint32_t awake = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t pair = which[i];
+        which[awake] = pair;
+        awake += !contact_sleeps(&c->pairs[pair], c->path);
+    }
+    return awake;
+}
+
+static void take_awake_in(struct sieve *sieve, uint32_t begin, uint32_t end)
+{
+    uint32_t which[PAIRS_AT_ONCE];
+    for (uint32_t i = begin; i < end; i++)
+        which[i - begin] = i;
+    take_some_in(sieve, which, leave_sleepers_out(sieve->look->sim->contact, which, end - begin));
+}
+
 static void look_at_some(void *context, size_t index, unsigned worker)
 {
     (void)worker;
@@ -142,27 +183,20 @@ static void look_at_some(void *context, size_t index, unsigned worker)
     const struct contact *c = sieve.look->sim->contact;
     const uint32_t begin = (uint32_t)index * PAIRS_AT_ONCE,
                    end = begin + PAIRS_AT_ONCE < c->pair_count ? begin + PAIRS_AT_ONCE : c->pair_count;
-    uint32_t near[PAIRS_AT_ONCE];
-    const uint32_t count = c->tree.kernels->sift(&sieve.look->by, &c->pairs[begin], NULL, end - begin, near);
-    for (uint32_t i = 0; i < count; i++)
-        take_in(&sieve, begin + near[i]);
+    (sieve.look->by.path ? take_awake_in : take_all_in)(&sieve, begin, end);
     end_look(&sieve);
 }
 
 static void take_links_in(struct sieve *sieve, uint32_t *links, uint32_t count)
 {
     const struct contact *c = sieve->look->sim->contact;
-    uint32_t kept = 0, near[PAIRS_AT_ONCE];
+    uint32_t kept = 0;
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t pair = links[i] / 4, place = links[i] % 4;
         links[kept] = pair;
         kept += contact_is_first(c->stirred, c->pairs[pair].point, place);
     }
-    for (uint32_t i = kept; i % 8 != 0; i++)
-        links[i] = links[kept - 1];
-    kept = c->tree.kernels->sift(&sieve->look->by, c->pairs, links, kept, near);
-    for (uint32_t i = 0; i < kept; i++)
-        take_in(sieve, near[i]);
+    take_some_in(sieve, links, sieve->look->by.path ? leave_sleepers_out(c, links, kept) : kept);
 }
 
 static void look_at_links(void *context, size_t index, unsigned worker)

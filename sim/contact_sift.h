@@ -8,17 +8,15 @@
 /* Eight pairs. */
 struct sift_eight {
     lanes8_mask point[4], edges;
-    lanes8 distance, approach, until;
+    lanes8 distance, approach;
 };
 
 static inline struct sift_eight sift_turn(const lanes8 pairs[8])
 {
     lanes8 turned[8];
     lanes8_turn(pairs, turned);
-    struct sift_eight e = {.edges = (lanes8_mask)turned[4] == CCD_EDGES,
-                           .distance = turned[5],
-                           .approach = turned[6],
-                           .until = turned[7]};
+    struct sift_eight e = {
+        .edges = (lanes8_mask)turned[4] == CCD_EDGES, .distance = turned[5], .approach = turned[6]};
     for (int k = 0; k < 4; k++)
         e.point[k] = (lanes8_mask)turned[k];
     return e;
@@ -45,9 +43,10 @@ static inline lanes8 sift_spare(const struct contact_sieve *s, const struct sift
 
 /* Those of an eight that rest sleep until their points have gone further by what they have to spare, but for
  * what rounding may come to. */
-static inline void sift_rest(const struct contact_sieve *s, lanes8 gone, lanes8 spare, unsigned rest,
-                             struct contact_pair *pairs, const uint32_t *which)
+static inline void sift_rest(const struct contact_sieve *s, const struct sift_eight *e, lanes8 spare,
+                             unsigned rest, struct contact_pair *pairs, const uint32_t *which)
 {
+    const lanes8 gone = sift_gone(s, e);
     for (; rest; rest &= rest - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(rest);
         pairs[which ? which[k] : k].until = contact_until(gone[k], spare[k] - 1e-5F * s->gap);
@@ -59,22 +58,16 @@ static uint32_t sift(const struct contact_sieve *sieve, struct contact_pair *pai
 {
     uint32_t found = 0;
     for (uint32_t i = 0; i < count; i += 8) {
-        unsigned up = count - i < 8 ? (1U << (count - i)) - 1 : 0xff;
-        lanes8 rows[8], gone = lanes8_all(0);
+        const unsigned all = count - i < 8 ? (1U << (count - i)) - 1 : 0xff;
+        lanes8 rows[8];
         for (uint32_t k = 0; k < 8; k++)
             rows[k] = *(const lanes8 *)&pairs[which ? which[i + k] : i + k];
         const struct sift_eight e = sift_turn(rows);
-        if (sieve->path) {
-            gone = sift_gone(sieve, &e);
-            up &= lanes8_bits(~(gone <= e.until));
-        }
-        if (up == 0)
-            continue;
         const lanes8 spare = sift_spare(sieve, &e);
-        if (sieve->path)
-            sift_rest(sieve, gone, spare, up & lanes8_bits(spare > 0), which ? pairs : &pairs[i],
-                      which ? &which[i] : NULL);
-        for (unsigned touch = up & lanes8_bits(spare <= 0); touch; touch &= touch - 1) {
+        const unsigned rest = all & lanes8_bits(spare > 0);
+        if (sieve->path && rest)
+            sift_rest(sieve, &e, spare, rest, which ? pairs : &pairs[i], which ? &which[i] : NULL);
+        for (unsigned touch = all & lanes8_bits(spare <= 0); touch; touch &= touch - 1) {
             const uint32_t k = i + (uint32_t)__builtin_ctz(touch);
             near[found++] = which ? which[k] : k;
         }
