@@ -68,9 +68,10 @@ struct look {
     struct contact_sieve by;
 };
 
-/* Pairs of a kind that are worth a nearer look, some at a time. */
-enum { PAIRS_AT_ONCE = 256, POINTS_AT_ONCE = 3 };
+/* Of a worker's job; those that are worth a nearer look are few, and looked at eight at a time. */
+enum { PAIRS_AT_ONCE = 256, PAIRS_A_JOB = 4 * PAIRS_AT_ONCE, POINTS_A_JOB = 8 };
 
+/* Pairs of a kind that are worth a nearer look, some at a time. */
 struct sieve {
     const struct look *look;
     uint32_t count[2];
@@ -181,9 +182,11 @@ static void look_at_some(void *context, size_t index, unsigned worker)
     struct sieve sieve;
     begin_look(&sieve, context);
     const struct contact *c = sieve.look->sim->contact;
-    const uint32_t begin = (uint32_t)index * PAIRS_AT_ONCE,
-                   end = begin + PAIRS_AT_ONCE < c->pair_count ? begin + PAIRS_AT_ONCE : c->pair_count;
-    (sieve.look->by.path ? take_awake_in : take_all_in)(&sieve, begin, end);
+    const uint32_t begin = (uint32_t)index * PAIRS_A_JOB,
+                   end = begin + PAIRS_A_JOB < c->pair_count ? begin + PAIRS_A_JOB : c->pair_count;
+    for (uint32_t i = begin; i < end; i += PAIRS_AT_ONCE)
+        (sieve.look->by.path ? take_awake_in
+                             : take_all_in)(&sieve, i, i + PAIRS_AT_ONCE < end ? i + PAIRS_AT_ONCE : end);
     end_look(&sieve);
 }
 
@@ -205,8 +208,8 @@ static void look_at_links(void *context, size_t index, unsigned worker)
     struct sieve sieve;
     begin_look(&sieve, context);
     const struct contact *c = sieve.look->sim->contact;
-    const uint32_t begin = (uint32_t)index * POINTS_AT_ONCE,
-                   end = begin + POINTS_AT_ONCE < c->moved_count ? begin + POINTS_AT_ONCE : c->moved_count;
+    const uint32_t begin = (uint32_t)index * POINTS_A_JOB,
+                   end = begin + POINTS_A_JOB < c->moved_count ? begin + POINTS_A_JOB : c->moved_count;
     uint32_t kept[PAIRS_AT_ONCE], count = 0;
     for (uint32_t i = begin; i < end; i++) {
         struct contact_links links = contact_links_of(c, c->moved[i]);
@@ -296,7 +299,7 @@ bool contact_look(struct sim *sim)
     struct contact *c = sim->contact;
     struct contact_rounding ways = round_ways(sim);
     contact_round(sim, &ways);
-    return look(sim, false, (c->pair_count + PAIRS_AT_ONCE - 1) / PAIRS_AT_ONCE, look_at_some);
+    return look(sim, false, (c->pair_count + PAIRS_A_JOB - 1) / PAIRS_A_JOB, look_at_some);
 }
 
 bool contact_look_at_moved(struct sim *sim, bool zones)
@@ -306,5 +309,5 @@ bool contact_look_at_moved(struct sim *sim, bool zones)
     ways.points = c->moved;
     c->tree.kernels->round(&ways, 0, c->moved_count);
     contact_links_make(sim);
-    return look(sim, zones, (sim->contact->moved_count + POINTS_AT_ONCE - 1) / POINTS_AT_ONCE, look_at_links);
+    return look(sim, zones, (sim->contact->moved_count + POINTS_A_JOB - 1) / POINTS_A_JOB, look_at_links);
 }
