@@ -4,6 +4,7 @@
  * 0, else with linear hardening). What has slipped is part of the edge's length at rest for good. It slips at
  * the end of a step, at once: rate-independent.
  */
+#include "sim/checkpoint.h"
 #include "sim/effects.h"
 #include "sim/guard.h"
 #include "sim/kernels.h"
@@ -23,6 +24,7 @@ static enum status open(struct sim *sim, struct sim_balloon *b, struct error *er
 {
     b->slip_count = b->edge_end - b->edge_begin;
     b->slip = sim_table(sim, b->slip_count, sizeof *b->slip);
+    sim->fingerprint = checkpoint_fingerprint(sim);
     return b->slip ? STATUS_OK : error_no_memory(err, "the slip of the springs");
 }
 

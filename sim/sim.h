@@ -239,7 +239,7 @@ struct sim {
     double *hinge_pull; /* [edge_count] of skin that resists being bent (bending_passes.h); NULL: none does */
     struct air_drag *drag; /* what the air's resistance remembers (effect_drag.c); NULL: there is none */
     struct hand *hand;     /* that pulls at it (live_hand.h); NULL: none */
-    uint64_t fingerprint;  /* checkpoint_fingerprint() before anything was cut; 0: nothing can be */
+    uint64_t fingerprint;  /* checkpoint_fingerprint() before anything was cut or slipped; 0: nothing can */
     /* Of sim_forces() since sim_open(), also of those for a look; nothing depends on it. */
     uint64_t evaluations;
     uint64_t products; /* of sim_force_product(), likewise */

@@ -37,6 +37,14 @@ for method in verlet rk4 implicit-midpoint bdf2; do
     [ "$(tail -n 1 .stdout)" = "$part" ] || fail "$method: another hash after it was resumed"
 done
 
+# springs that have slipped are the state's: the scene is the one that it was
+slips='--set balloons[0].plasticity.yield=1 --set balloons[0].pressure=4 --set balloons[0].threshold=4'
+expect 0 balloon-sim sphere.cfg $slips --set time.end=0.3 --checkpoint slip.ck
+expect 0 balloon-sim sphere.cfg $slips --set time.end=0.4 --resume slip.ck --hash
+part=$(tail -n 1 .stdout)
+expect 0 balloon-sim sphere.cfg $slips --set time.end=0.4 --hash
+[ "$(tail -n 1 .stdout)" = "$part" ] || fail "springs that slip: another hash after they were resumed"
+
 # in the midst of a burst that lets gas out: the guard, too, goes by what is in the file alone
 gas='--set balloons[0].pressure=0 --set balloons[0].gas.ambient=0.5 --set balloons[0].gas.fill=6 --set balloons[0].gas.density=1e-5'
 for method in symplectic-euler verlet rk4; do
