@@ -41,11 +41,12 @@ struct attempt {
 };
 
 /* At ten times the tolerance a method of order p takes 10^(1/p) times fewer steps: one of the fifth that came
- * a share of the way in its time needs as much more of that. */
+ * less than 10^(-1/5) of the way needs more than that. One that stood still for another reason may go on
+ * soon. */
 static double next_tolerance(double tolerance, double share)
 {
-    const double order = 5, decades = ceil(order * -log10(fmax(share, 1e-9)));
-    return tolerance * pow(10, fmax(decades, 1));
+    const double order = 5, decades = order * -log10(fmax(share, 1e-9));
+    return decades > 1 ? 100 * tolerance : 10 * tolerance;
 }
 
 /* One run, kept where it comes to its end. */
@@ -193,16 +194,18 @@ static enum status find_both(struct accuracy_plan *plan, const struct pair *pair
     return status;
 }
 
-/* Motion that folds and wrinkles forgets where it began: runs can be compared for a shorter time only. */
-static bool is_shortened(struct accuracy_plan *plan)
+/* Motion that folds and wrinkles forgets where it began: runs can be compared for a shorter time only. So
+ * they can where no method that chooses its steps comes to the end. */
+static bool is_shortened(struct accuracy_plan *plan, enum status status)
 {
     const double fair = 1e-5; /* of the radius: where references agree less, few rows could be judged */
-    if (plan->table->agreement <= fair || plan->quarter < 4)
+    const bool stands = status == STATUS_RESOURCE || status == STATUS_DIVERGED;
+    if (plan->quarter < 4 || (!stands && (status || plan->table->agreement <= fair)))
         return false;
     plan->reach = plan->table->span / 4;
     accuracy_set_span(plan);
-    snprintf(plan->table->span_reason, sizeof plan->table->span_reason,
-             "for as long as two references agree");
+    snprintf(plan->table->span_reason, sizeof plan->table->span_reason, "for as long as %s",
+             stands ? "references come on" : "two references agree");
     return true;
 }
 
@@ -214,7 +217,7 @@ enum status accuracy_find_reference(struct accuracy_plan *plan, struct error *er
         const double evaluations = 4 * plan->table->span / plan->stable;
         const bool is_stiff = evaluations * plan->evaluation > budget(plan) / 2;
         status = find_both(plan, is_stiff ? &implicit_pair : &explicit_pair, err);
-        if (status == STATUS_OK && i + 1 < TRIES && is_shortened(plan))
+        if (i + 1 < TRIES && is_shortened(plan, status))
             continue;
         if (status != STATUS_INPUT)
             break;
