@@ -27,7 +27,7 @@ balloon-sim ball.cfg --log again.tsv --set time.end=0.1 -q >/dev/null
 open_live
 press m
 wait_title 'recording'
-sleep 1.5
+sleep 5 # a loaded machine draws one frame a second
 press m
 wait_title '^ball.cfg - '
 press p
