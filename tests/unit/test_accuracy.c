@@ -117,7 +117,7 @@ static void references_agree_on_gas_as_well(void **state)
     assert_ok(measure(SETTINGS("balloons[0].gas.ambient=10", "balloons[0].gas.pump=1.5",
                                "balloons[0].gas.pump_until=1.3", "balloons[0].threshold=100", "time.end=0.8",
                                "time.guard=off"),
-                      &(struct accuracy_options){.seconds = 2 * slowdown()}, &table, &err),
+                      &(struct accuracy_options){.seconds = 20 * slowdown()}, &table, &err),
               &err);
     print_message("# %g up to %g s\n", table.agreement, table.span);
     assert_near(table.span, 0.8, 1e-12);
@@ -167,7 +167,7 @@ static void progress_moves_within_a_run_and_never_goes_back(void **state)
     static struct accuracy_table table;
     struct error err = {0};
     struct told told = {0};
-    const struct accuracy_options options = {.seconds = 1 * slowdown(), .go_on = note, .context = &told};
+    const struct accuracy_options options = {.seconds = 10 * slowdown(), .go_on = note, .context = &told};
     assert_ok(measure(CALM, &options, &table, &err), &err);
     assert_false(told.back);
     assert_true(told.moves[0] >= 20 && told.moves[1] >= 100);

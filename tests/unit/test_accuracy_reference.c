@@ -58,7 +58,7 @@ static void a_shorter_span_is_tried_where_no_reference_comes_to_the_end(void **s
                  SETTINGS("balloons[0].point_mass=1", "balloons[0].pressure=4", "balloons[0].threshold=100",
                           "time.end=0.4", "time.step=0.005", "time.guard=off"));
     passable = 0.15;
-    assert_ok(accuracy_measure(&b.scene, &b.mesh, &(struct accuracy_options){.seconds = 1 * slowdown()},
+    assert_ok(accuracy_measure(&b.scene, &b.mesh, &(struct accuracy_options){.seconds = 10 * slowdown()},
                                &table, &err),
               &err);
     passable = INFINITY;
