@@ -8,9 +8,11 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Looks at the other side this often before going to sleep: some 20 microseconds. Where all processors are
- * taken by others, spinning longer would only keep from them what one waits for. */
-enum { SPINS = 1000 };
+/* Looks at the other side this often before going to sleep: for 50 to 200 microseconds, by how long the
+ * machine pauses. What one does alone between two shares of contact's work is shorter, and to be woken takes
+ * as long where the machine is a virtual one. Where all processors are taken by others, spinning longer would
+ * only keep from them what one waits for. */
+enum { SPINS = 5000 };
 
 struct worker {
     struct threads *pool;
