@@ -69,7 +69,7 @@ struct look {
 };
 
 /* Of a worker's job; those that are worth a nearer look are few, and looked at eight at a time. */
-enum { PAIRS_AT_ONCE = 256, PAIRS_A_JOB = 4 * PAIRS_AT_ONCE, POINTS_A_JOB = 8 };
+enum { PAIRS_AT_ONCE = 256, PAIRS_A_JOB = 4 * PAIRS_AT_ONCE, POINTS_A_JOB = 4 };
 
 /* Pairs of a kind that are worth a nearer look, some at a time. */
 struct sieve {
