@@ -6,6 +6,7 @@
  */
 #include "sim/effect_string.h"
 #include "common/vec3.h"
+#include "sim/bodies.h"
 #include "sim/effects.h"
 #include "sim/guard.h"
 #include "sim/patch.h"

@@ -1,4 +1,5 @@
 /* The two Euler methods: one force a step, first order. */
+#include "sim/bodies.h"
 #include "sim/methods.h"
 #include "sim/sweep.h"
 

@@ -1,4 +1,5 @@
 #include "sim/implicit.h"
+#include "sim/bodies.h"
 #include "sim/guard.h"
 #include "sim/jacobian.h"
 #include "sim/ledger.h"
@@ -105,14 +106,6 @@ static double follow_bodies(struct sim *sim, double c, const double *base)
     return farthest;
 }
 
-static bool is_of_body(const struct sim *sim, uint32_t scalar)
-{
-    for (uint32_t i = 0; i < sim->body_count; i++)
-        if (scalar >= sim->body[i].place && scalar < sim->body[i].place + SIM_BODY_SCALARS)
-            return true;
-    return false;
-}
-
 struct change {
     double scalar; /* the largest of one against its size, of those that are of no body */
     double body;   /* the farthest way of one */
@@ -125,7 +118,7 @@ static struct change follow_scalars(struct sim *sim, double c)
     double change = 0;
     const double way = follow_bodies(sim, c, base);
     for (uint32_t i = 0; i < sim->scalar_count; i++) {
-        if (is_of_body(sim, i))
+        if (sim_is_of_body(sim, i))
             continue;
         const double scalar = base[i] + c * sim->scalar_rate[i];
         if (i < sim_state_scalars(sim)) /* what only records must not decide when the iteration ends */

@@ -1,5 +1,6 @@
 /* Backward Euler, the implicit midpoint rule, and TR-BDF2: what of the step each of them puts into the
  * equation of implicit.h. */
+#include "sim/bodies.h"
 #include "sim/implicit.h"
 #include "sim/jacobian.h"
 #include "sim/methods.h"

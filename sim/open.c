@@ -270,18 +270,6 @@ enum status sim_add_scalars(struct sim *sim, uint32_t count, uint32_t *first, st
     return STATUS_OK;
 }
 
-enum status sim_add_body(struct sim *sim, uint32_t *first, struct error *err)
-{
-    struct sim_body *longer = realloc(sim->body, (sim->body_count + 1) * sizeof *longer);
-    if (!longer)
-        return error_no_memory(err, "the quantities that are integrated");
-    sim->body = longer;
-    enum status status = sim_add_scalars(sim, SIM_BODY_SCALARS, first, err);
-    if (!status)
-        sim->body[sim->body_count++] = (struct sim_body){*first, *first + 3};
-    return status;
-}
-
 /* Two workers that wait for each other several times a step gain nothing on a small balloon, and lose much
  * where the machine has other things to do. */
 static unsigned useful_workers(const struct sim *sim)

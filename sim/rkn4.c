@@ -16,6 +16,7 @@
  * they are gas, on which forces depend, kicks are solved as with damping.
  */
 #include "sim/rkn4.h"
+#include "sim/bodies.h"
 #include "sim/effect_gas.h"
 #include "sim/methods.h"
 #include "sim/vectors.h"

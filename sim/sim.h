@@ -166,13 +166,9 @@ struct sim {
     unsigned char *triangle_active; /* [triangle_count] */
 
     /* What no point carries, each with its rate of change: integrated along with the positions. */
-    uint32_t scalar_count;
+    uint32_t scalar_count, body_count;
     double *scalar, *scalar_rate; /* [scalar_count] the rates by sim_forces() */
-    /* Of those, what moves as a point does: three are its place, whose rates are the three of its speed. */
-    uint32_t body_count;
-    struct sim_body {
-        uint32_t place, speed;
-    } * body; /* [body_count] owned */
+    struct sim_body *body;        /* [body_count] of those, what moves as points do (bodies.h); owned */
 
     const struct scene *scene;
     struct sim_balloon *balloons;  /* [balloon_count] */
@@ -281,17 +277,6 @@ void sim_forces(struct sim *sim);
 /* Room for `count` more scalars, all 0; *first becomes the number of the first. Between sim_open() and the
  * first step, or by an effect's hook as the sim is opened. Error: STATUS_NO_MEMORY. */
 enum status sim_add_scalars(struct sim *sim, uint32_t count, uint32_t *first, struct error *err);
-
-/* The same for a body, of which methods know that its place goes by its speed: six scalars, place and then
- * speed. */
-enum { SIM_BODY_SCALARS = 6 };
-enum status sim_add_body(struct sim *sim, uint32_t *first, struct error *err);
-
-/* For methods to which places and speeds are not alike, as rates of scalars are: a body's place goes on over
- * dt by its speed, and by dt/2 of its `rate` (NULL: none), while the scalars' own rates leave it where it
- * is. */
-void sim_drift_bodies(struct sim *sim, double dt, const double *rate);
-void sim_hold_bodies(const struct sim *sim, double *rate);
 
 /* Zeroed memory on a line of the cache, free()d by whoever asked, which adds to sim->bytes.
  * NULL: there is not enough. */

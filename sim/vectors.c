@@ -145,18 +145,3 @@ double vector_dot(struct sim *sim, double (*a)[4], double (*b)[4])
 {
     return vector_sum(sim, dot_block, &(struct operands){.y = a, .x = b});
 }
-
-void sim_drift_bodies(struct sim *sim, double dt, const double *rate)
-{
-    for (const struct sim_body *b = sim->body; b < sim->body + sim->body_count; b++)
-        for (uint32_t i = 0; i < 3; i++)
-            sim->scalar[b->place + i] += dt * (sim->scalar[b->speed + i] +
-                                               (rate ? dt / 2 * rate[b->speed + i] : 0));
-}
-
-void sim_hold_bodies(const struct sim *sim, double *rate)
-{
-    for (const struct sim_body *b = sim->body; b < sim->body + sim->body_count; b++)
-        for (uint32_t i = 0; i < 3; i++)
-            rate[b->place + i] = 0;
-}

@@ -11,6 +11,7 @@
  *
  * The acceleration is remembered from step to step; it is asked anew after everything that makes forces jump.
  */
+#include "sim/bodies.h"
 #include "sim/methods.h"
 #include "sim/sweep.h"
 #include "sim/vectors.h"

@@ -13,6 +13,7 @@
  */
 #include "common/array.h"
 #include "common/threads.h"
+#include "sim/bodies.h"
 #include "sim/guard.h"
 #include "sim/kernels.h"
 #include "sim/methods.h"
