@@ -8,14 +8,10 @@
 
 #include "sim/sim.h"
 
-enum { SIM_BODY_SCALARS = 6 };
+/* Where they are from its first on. */
+enum { SIM_BODY_PLACE = 0, SIM_BODY_SPEED = 3, SIM_BODY_SCALARS = 6 };
 
-/* The first of its scalars. */
-struct sim_body {
-    uint32_t place, speed;
-};
-
-/* As sim_add_scalars(): place, and then speed. */
+/* As sim_add_scalars(). */
 enum status sim_add_body(struct sim *sim, uint32_t *first, struct error *err);
 
 /* Whether that scalar is a body's. */
@@ -25,5 +21,9 @@ bool sim_is_of_body(const struct sim *sim, uint32_t scalar);
  * rates leave it where it is. */
 void sim_drift_bodies(struct sim *sim, double dt, const double *rate);
 void sim_hold_bodies(const struct sim *sim, double *rate);
+
+/* All scalars go on over dt by their rates, and then bodies by the speeds that they have by now: as velocity
+ * first, and then positions. */
+void sim_advance_scalars(struct sim *sim, double dt);
 
 #endif

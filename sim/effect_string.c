@@ -15,8 +15,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { STRING_PLACE, STRING_SPEED = 3 }; /* of the weight, a body of sim.h */
-
 struct string {
     const struct scene_string *scene;
     uint32_t *point; /* [count] owned */
@@ -62,7 +60,7 @@ static enum status open(struct sim *sim, struct sim_balloon *b, struct error *er
         string->end[i] = b->centre[i] + string->scene->to[i] * b->radius;
     string->length = string->scene->slack * vec3_distance(mean, string->end);
     if (string->weight > 0)
-        memcpy(&sim->scalar[string->scalar + STRING_PLACE], string->end, sizeof string->end);
+        memcpy(&sim->scalar[string->scalar + SIM_BODY_PLACE], string->end, sizeof string->end);
     return STATUS_OK;
 }
 
@@ -84,7 +82,7 @@ struct pull {
 static struct pull pull_of(const struct sim *sim, const struct string *string)
 {
     const bool weight = string->weight > 0;
-    const double *end = weight ? &sim->scalar[string->scalar + STRING_PLACE] : string->end;
+    const double *end = weight ? &sim->scalar[string->scalar + SIM_BODY_PLACE] : string->end;
     struct pull pull;
     double l[3];
     mean_of(string, sim->position, l);
@@ -92,7 +90,7 @@ static struct pull pull_of(const struct sim *sim, const struct string *string)
     vec3_sub(l, end, l);
     pull.length = vec3_length(l);
     for (int i = 0; i < 3; i++) {
-        pull.speed[i] -= weight ? sim->scalar[string->scalar + STRING_SPEED + (uint32_t)i] : 0;
+        pull.speed[i] -= weight ? sim->scalar[string->scalar + SIM_BODY_SPEED + (uint32_t)i] : 0;
         pull.along[i] = pull.length > 0 ? l[i] / pull.length : 0;
     }
     pull.tension = 0;
@@ -108,7 +106,7 @@ bool string_ends(const struct sim *sim, const struct sim_balloon *b, double skin
     if (!string)
         return false;
     mean_of(string, sim->position, skin);
-    memcpy(end, string->weight > 0 ? &sim->scalar[string->scalar + STRING_PLACE] : string->end,
+    memcpy(end, string->weight > 0 ? &sim->scalar[string->scalar + SIM_BODY_PLACE] : string->end,
            sizeof string->end);
     return true;
 }
@@ -125,8 +123,8 @@ static void apply(struct sim *sim, struct sim_balloon *b)
     double *rate = &sim->scalar_rate[string->scalar], *scalar = &sim->scalar[string->scalar];
     for (int i = 0; i < 3; i++) {
         const double falling = sim->scene->gravity.on ? sim->scene->gravity.acceleration[i] : 0;
-        rate[STRING_PLACE + i] = scalar[STRING_SPEED + i];
-        rate[STRING_SPEED + i] = falling + pull.tension * pull.along[i] / string->weight;
+        rate[SIM_BODY_PLACE + i] = scalar[SIM_BODY_SPEED + i];
+        rate[SIM_BODY_SPEED + i] = falling + pull.tension * pull.along[i] / string->weight;
     }
 }
 
@@ -227,8 +225,8 @@ static double energy(struct sim *sim, struct sim_balloon *b)
     const double weight = string->weight, *scalar = weight > 0 ? &sim->scalar[string->scalar] : NULL;
     for (int i = 0; i < 3 && weight > 0; i++) {
         const double falling = sim->scene->gravity.on ? sim->scene->gravity.acceleration[i] : 0;
-        sum += weight *
-               (scalar[STRING_SPEED + i] * scalar[STRING_SPEED + i] / 2 - falling * scalar[STRING_PLACE + i]);
+        sum += weight * (scalar[SIM_BODY_SPEED + i] * scalar[SIM_BODY_SPEED + i] / 2 -
+                         falling * scalar[SIM_BODY_PLACE + i]);
     }
     return sum;
 }

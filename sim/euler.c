@@ -35,19 +35,11 @@ static void position_first(struct sim *sim, uint32_t begin, uint32_t end, double
     *seen = now;
 }
 
-static void advance_scalars(struct sim *sim, double dt)
-{
-    for (uint32_t i = 0; i < sim->scalar_count; i++)
-        sim->scalar[i] += sim->scalar_rate[i] * dt;
-}
-
 static enum status symplectic_euler(struct sim *sim, double dt, struct error *err)
 {
     (void)err;
     sim_forces_then(sim, &(struct sim_move){velocity_first, dt});
-    sim_hold_bodies(sim, sim->scalar_rate);
-    advance_scalars(sim, dt);
-    sim_drift_bodies(sim, dt, NULL);
+    sim_advance_scalars(sim, dt);
     return STATUS_OK;
 }
 
@@ -55,7 +47,8 @@ static enum status explicit_euler(struct sim *sim, double dt, struct error *err)
 {
     (void)err;
     sim_forces_then(sim, &(struct sim_move){position_first, dt});
-    advance_scalars(sim, dt);
+    for (uint32_t i = 0; i < sim->scalar_count; i++)
+        sim->scalar[i] += dt * sim->scalar_rate[i];
     return STATUS_OK;
 }
 

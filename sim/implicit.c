@@ -90,13 +90,14 @@ static void place_points(struct sim *sim, double c)
 static double follow_bodies(struct sim *sim, double c, const double *base)
 {
     double farthest = 0;
-    for (const struct sim_body *b = sim->body; b < sim->body + sim->body_count; b++) {
+    for (const uint32_t *b = sim->body; b < sim->body + sim->body_count; b++) {
         double moved = 0, size = 0;
         for (uint32_t i = 0; i < 3; i++) {
-            double *place = &sim->scalar[b->place + i], *speed = &sim->scalar[b->speed + i];
+            const uint32_t at = *b + SIM_BODY_PLACE + i, going = *b + SIM_BODY_SPEED + i;
+            double *place = &sim->scalar[at], *speed = &sim->scalar[going];
             const double before = *place;
-            *speed = base[b->speed + i] + c * sim->scalar_rate[b->speed + i];
-            *place = base[b->place + i] + c * *speed;
+            *speed = base[going] + c * sim->scalar_rate[going];
+            *place = base[at] + c * *speed;
             moved += (*place - before) * (*place - before);
             size += *place * *place;
         }

@@ -49,10 +49,7 @@ static bool take_backward_euler(struct sim *sim, double h)
     sim_each_part(sim, left_part, &h);
     if (!(solver_size(sim, &m->solver, rhs) <= all / 2))
         return implicit_solve(sim, h);
-    sim_hold_bodies(sim, sim->scalar_rate);
-    for (uint32_t i = 0; i < sim->scalar_count; i++)
-        sim->scalar[i] += h * sim->scalar_rate[i];
-    sim_drift_bodies(sim, h, NULL);
+    sim_advance_scalars(sim, h);
     return true;
 }
 

@@ -206,10 +206,7 @@ static void advance_scalars(struct sim *sim, double h)
     if (sim->scalar_count == 0)
         return;
     sim_forces(sim);
-    sim_hold_bodies(sim, sim->scalar_rate);
-    for (uint32_t i = 0; i < sim->scalar_count; i++)
-        sim->scalar[i] += h * sim->scalar_rate[i];
-    sim_drift_bodies(sim, h, NULL);
+    sim_advance_scalars(sim, h);
 }
 
 /* The part of their stiffness that springs keep in substeps of h, the mean over the active ones. */

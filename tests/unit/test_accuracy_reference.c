@@ -29,22 +29,27 @@ enum status __wrap_accuracy_go(struct accuracy_run *run, const struct accuracy_s
     return __real_accuracy_go(run, subject, dials, budget, states, err);
 }
 
+static void measure(const char *const *settings, double seconds, struct accuracy_table *table)
+{
+    struct error err = {0};
+    struct balloon b;
+    open_balloon(&b, 1, settings);
+    assert_ok(accuracy_measure(&b.scene, &b.mesh, &(struct accuracy_options){.seconds = seconds * slowdown()},
+                               table, &err),
+              &err);
+    close_balloon(&b);
+}
+
 static void a_looser_tolerance_is_tried_where_a_reference_diverges(void **state)
 {
     (void)state;
     static struct accuracy_table table;
-    struct error err = {0};
-    struct balloon b;
-    open_balloon(&b, 1,
-                 SETTINGS("balloons[0].point_mass=1", "balloons[0].pressure=4", "balloons[0].threshold=100",
-                          "time.end=0.2", "time.guard=off"));
     failures = 4; /* of two methods, at 1e-12 and 1e-11 */
-    assert_ok(accuracy_measure(&b.scene, &b.mesh, &(struct accuracy_options){.seconds = 1 * slowdown()},
-                               &table, &err),
-              &err);
+    measure(SETTINGS("balloons[0].point_mass=1", "balloons[0].pressure=4", "balloons[0].threshold=100",
+                     "time.end=0.2", "time.guard=off"),
+            1, &table);
     assert_int_equal(failures, 0);
     assert_non_null(strstr(table.reference[0], "time.tolerance=1e-10"));
-    close_balloon(&b);
 }
 
 /* As where springs slip at the ends of steps. */
@@ -52,19 +57,13 @@ static void a_shorter_span_is_tried_where_no_reference_comes_to_the_end(void **s
 {
     (void)state;
     static struct accuracy_table table;
-    struct error err = {0};
-    struct balloon b;
-    open_balloon(&b, 1,
-                 SETTINGS("balloons[0].point_mass=1", "balloons[0].pressure=4", "balloons[0].threshold=100",
-                          "time.end=0.4", "time.step=0.005", "time.guard=off"));
     passable = 0.15;
-    assert_ok(accuracy_measure(&b.scene, &b.mesh, &(struct accuracy_options){.seconds = 10 * slowdown()},
-                               &table, &err),
-              &err);
+    measure(SETTINGS("balloons[0].point_mass=1", "balloons[0].pressure=4", "balloons[0].threshold=100",
+                     "time.end=0.4", "time.step=0.005", "time.guard=off"),
+            10, &table);
     passable = INFINITY;
     assert_true(table.span <= 0.15 && table.agreement < 1e-5 && table.count > 0);
     assert_string_equal(table.span_reason, "for as long as references come on");
-    close_balloon(&b);
 }
 
 int main(void)
