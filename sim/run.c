@@ -37,8 +37,9 @@ static double now(void)
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* Says beforehand that gas flows too fast for any method, since trials of each take long then. */
-static void note_tube(const struct sim *sim)
+/* Says beforehand that what moves beside the points is too fast for any method, since trials of each take
+ * long then. */
+static void note_follow(const struct sim *sim)
 {
     const struct guard_follow follow = guard_following(sim);
     const double parts = ceil(sim->whole_step / follow.step);
@@ -126,7 +127,7 @@ static enum status step_to_end(struct run *run, struct error *err)
     const double end = sim->scene->time.end, steps = end / sim->step;
     enum status status = outputs_show(&run->outputs, sim, err);
     if (!status)
-        note_tube(sim);
+        note_follow(sim);
     run->began = run->kept = now();
     char size[96];
     snprintf(size, sizeof size, "%u triangles, to %g s in %.3g steps", sim->triangle_count, end, steps);

@@ -10,6 +10,15 @@
 
 enum { NAMES_MAX = 10000 };
 
+/* What was done, or what went wrong with it. */
+static void tell(struct app *app, enum status status, const struct error *err, const char *done)
+{
+    if (status)
+        app_complain(app, err->text);
+    else
+        app_say(app, done);
+}
+
 /* "sphere-1.mp4" for sphere.cfg: the first number that is free, in the current folder. */
 static bool find_name(const struct app *app, const char *extension, char *name, size_t size)
 {
@@ -48,10 +57,7 @@ void app_record(struct app *app)
     }
     enum status status = begin(app, &err);
     snprintf(text, sizeof text, "recording %s", app->recording);
-    if (status)
-        app_complain(app, err.text);
-    else
-        app_say(app, text);
+    tell(app, status, &err, text);
     app->live.each_frame = !status;
     app->recorded = -1;
     app_show_title(app);
@@ -84,10 +90,7 @@ void app_end_recording(struct app *app)
     app->film = NULL;
     app->live.each_frame = false;
     snprintf(text, sizeof text, "%s is written", app->recording);
-    if (status)
-        app_complain(app, err.text);
-    else
-        app_say(app, text);
+    tell(app, status, &err, text);
     app_show_title(app);
 }
 
@@ -103,8 +106,5 @@ void app_save_picture(struct app *app)
     if (!status)
         status = image_save_png(&app->image, name, NULL, 0, &err);
     snprintf(text, sizeof text, "%s is written", name);
-    if (status)
-        app_complain(app, err.text);
-    else
-        app_say(app, text);
+    tell(app, status, &err, text);
 }
