@@ -143,7 +143,7 @@ static enum status alternate(struct subject *s, struct course *whole, struct cou
             double seconds;
             const enum status status = go_to(s, c, time, &seconds, err);
             if (status) {
-                row->diverged = c == rest && status == STATUS_DIVERGED;
+                row->failed = c == rest && (status == STATUS_DIVERGED || status == STATUS_RANGE);
                 return status;
             }
             c->stretch[i] = fmin(c->stretch[i], seconds);
@@ -223,7 +223,7 @@ static enum status measure_row(struct subject *s, struct effect_cost_table *tabl
     if (!status)
         status = go(s, &without.scene, table, row, err);
     without_close(&without);
-    if (status == STATUS_INPUT || row->diverged) {
+    if (status == STATUS_INPUT || row->failed) {
         snprintf(row->refused, sizeof row->refused, "%s", err->text);
         *err = (struct error){0};
         status = STATUS_OK;
@@ -305,7 +305,7 @@ void effect_cost_say(const struct effect_cost_table *table, const struct effect_
 {
     char change[256], steps[64], share[32];
     const char *name = row->effect->name;
-    if (row->diverged)
+    if (row->failed)
         snprintf(text, size, "%s: you need it; without it: %s", name, row->refused);
     else if (*row->refused)
         snprintf(text, size, "%s: cannot be left out alone: %s", name, row->refused);

@@ -35,7 +35,7 @@ struct effect_cost_row {
     const struct effect *effect;
     /* why it could not be left out, or what became of the run without it; "": nothing did */
     char refused[1024];
-    bool diverged;       /* the latter */
+    bool failed;         /* the latter */
     const char *instead; /* what did its work; NULL: nothing */
     double seconds;      /* a step, without it */
     /* Of the whole's time that is its own; below 0: of the time of the run without it, which takes longer,

@@ -64,7 +64,7 @@ static void a_run_that_diverges_without_it_says_so(void **state)
     for (size_t i = 0; i < table->count; i++)
         if (!strcmp(table->rows[i].effect->name, "pins")) {
             say(table, i, text);
-            assert_true(table->rows[i].diverged);
+            assert_true(table->rows[i].failed);
             assert_non_null(strstr(text, "pins: you need it; without it: "));
         } else {
             assert_string_equal(table->rows[i].effect->name, "pressure_on");

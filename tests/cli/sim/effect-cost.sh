@@ -27,6 +27,12 @@ expect 0 balloon-sim cube.ply $two --set time.end=0.1 --set 'balloons[0].gas.amb
 stdout_has '^# gas: cannot be left out alone: .*tube: balloons.0. has no gas that could flow'
 stdout_has '^# tube: '
 
+# a run that is refused midway without an effect is a row of the table: only bending keeps this skin from being crushed
+cp "$PROGRAMS/data/ball.ply" .
+crush='--set time.step=0.01 --set time.end=1.2 --set balloons[0].damping=2 --set balloons[0].threshold=100 --set contact.thickness=2'
+expect 0 balloon-sim ball.ply $crush --set 'balloons[0].pressure=-10' --set 'balloons[0].bending.stiffness=200' --effect-cost cost.tsv
+stdout_has '^# bending: you need it; without it: .*or the skin is crushed$'
+
 # what a scene bursts by is told
 expect 0 balloon-sim cube.ply --set time.end=0.5 --set 'balloons[0].pressure=0' --set 'balloons[0].rip.at=0.2' --effect-cost cost.tsv
 stdout_has '^# rip: .*without it nothing breaks \(with it at 0\.[0-9]+ s\): you need it$'
