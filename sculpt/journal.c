@@ -178,14 +178,15 @@ static enum status begin(struct journal *journal, const char *path, const struct
     return journal_append(journal, first, err);
 }
 
-/* A step ends where the program was killed: what comes now was not undone together with what was before. */
+/* A step ends where the program was killed: what comes now was not undone together with what was before. It
+ * is written as at a script's beginning, whatever material and mirror the lines before leave set. */
 static enum status go_on(struct journal *journal, const struct journal_text *text, struct error *err)
 {
     journal->size = (off_t)text->end;
     journal->sum = text->sum;
     if (ftruncate(journal->file, journal->size))
         return error_set_errno(err, journal->path, "write");
-    return text->operations > 0 ? journal_append(journal, "step\n", err) : STATUS_OK;
+    return text->operations > 0 ? journal_append(journal, "step\nmaterial 1\nmirror none\n", err) : STATUS_OK;
 }
 
 /* One that was made just now, or never got its first line, is not left behind. */

@@ -45,7 +45,8 @@ enum status journal_recover(const char *path, struct octree *tree, struct bytes 
                             struct journal_report *report, struct error *err);
 
 /* Opens the journal of the sculpture `path` for appending and locks it. One that is left is gone on with
- * (what is behind its last whole line is cut off; a step ends there); else a new one begins: from the file,
+ * (what is behind its last whole line is cut off; a step ends there, and material and mirror are again those
+ * of a script's beginning); else a new one begins: from the file,
  * or, where there is no file, from *tree. Errors: STATUS_RESOURCE when another program has it open;
  * STATUS_INPUT, STATUS_FILE, STATUS_NO_MEMORY. */
 enum status journal_open(const char *path, const struct octree *tree, struct journal **journal,

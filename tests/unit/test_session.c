@@ -176,6 +176,14 @@ static void what_is_saved_is_what_is_opened_and_its_log_replays(void **state)
     session_clear(&session);
 }
 
+/* As a kill leaves it: the journal stays, unlocked. */
+static void kill_session(void)
+{
+    journal_close(session.journal, false);
+    session.journal = NULL;
+    session_clear(&session);
+}
+
 static void work_that_was_not_saved_is_taken_up_again(void **state)
 {
     (void)state;
@@ -183,10 +191,7 @@ static void work_that_was_not_saved_is_taken_up_again(void **state)
     click(0.3, 0.3);
     click(0.7, 0.7);
     assert_true(session_undo(&session, &err));
-    struct session killed = session; /* as a kill leaves it: the journal stays, unlocked */
-    journal_close(killed.journal, false);
-    session.journal = NULL;
-    session_clear(&session);
+    kill_session();
 
     bool left = false;
     assert_ok(journal_is_left("new.oct", &left, &err), &err);
@@ -198,6 +203,30 @@ static void work_that_was_not_saved_is_taken_up_again(void **state)
     session_clear(&session);
     assert_ok(journal_is_left("new.oct", &left, &err), &err);
     assert_false(left);
+}
+
+/* What the first hand's mirror and material were is nothing to the second. */
+static void work_that_was_taken_up_can_be_taken_up_again(void **state)
+{
+    (void)state;
+    struct octree seen = {0};
+    open_new(5);
+    session.mirror = CHIP_MIRROR_X;
+    click(0.2, 0.5);
+    session.fill = true;
+    session.material = 3;
+    click(0.2, 0.8);
+    kill_session();
+    assert_ok(session_open(&session, "new.oct", 5, true, &err), &err);
+    click(0.3, 0.3);
+    session.fill = true;
+    click(0.7, 0.3);
+    assert_ok(octree_copy(&seen, &session.tree, &err), &err);
+    kill_session();
+    assert_ok(session_open(&session, "new.oct", 5, true, &err), &err);
+    assert_true(octree_equal(&session.tree, &seen));
+    octree_clear(&seen);
+    session_clear(&session);
 }
 
 static void two_hands_cannot_carve_one_sculpture(void **state)
@@ -295,6 +324,7 @@ int main(void)
         cmocka_unit_test(the_brush_keeps_to_the_grid_and_to_its_limits),
         cmocka_unit_test(what_is_saved_is_what_is_opened_and_its_log_replays),
         cmocka_unit_test(work_that_was_not_saved_is_taken_up_again),
+        cmocka_unit_test(work_that_was_taken_up_can_be_taken_up_again),
         cmocka_unit_test(two_hands_cannot_carve_one_sculpture),
         cmocka_unit_test(bricks_have_all_faces_and_change_only_where_a_chip_fell),
     };
