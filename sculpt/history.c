@@ -98,6 +98,7 @@ bool history_cancel(struct history *history, struct octree *tree)
         return false;
     }
     octree_undo(tree, tape->items, tape->count, &tape->before);
+    forget(history, history->done, history->count);
     return true;
 }
 

@@ -53,8 +53,9 @@ void history_begin(struct history *history, struct octree *tree);
  * any more. *regions, unless NULL, says where cells changed. */
 bool history_end(struct history *history, struct octree *tree, struct octree_regions *regions);
 
-/* Takes back what was done since the beginning of a step, and forgets it. False when the step was too large
- * to be recorded: then the tree stays as it has become, and the history is empty. */
+/* Takes back what was done since the beginning of a step, and forgets it. What was undone before can no
+ * longer be redone: the blocks that it needs may have been used. False when the step was too large to be
+ * recorded: then the tree stays as it has become, and the history is empty. */
 bool history_cancel(struct history *history, struct octree *tree);
 
 /* Takes back the last step that is done; does again the one taken back last. False when there is none. */

@@ -52,35 +52,45 @@ static enum status operate(struct session *session, struct chip *chip, struct er
     enum status status = chip_check(chip, err);
     if (!status && !ARRAY_RESERVE(&session->step, 2)) /* one for the line that ends the step */
         status = error_no_memory(err, "the chip log");
-    if (!status)
-        status = sculpt_chip(&session->tree, chip, err);
+    if (!status && (status = sculpt_chip(&session->tree, chip, err)))
+        session->step.failed = true;
     if (!status)
         session->step.items[session->step.count++] = *chip;
     changed_in(session, &session->history.tape.regions);
     return status;
 }
 
-/* Steps that changed nothing are forgotten. What the journal cannot keep is taken back. */
+/* The tree is again what it was when the step began, where the tape holds it all. */
+static void take_back(struct session *session)
+{
+    changed_in(session, &session->history.tape.regions); /* once more: what was shown may have been drawn */
+    if (history_cancel(&session->history, &session->tree))
+        return;
+    session->unsaved = session->log_lost = true;
+    session->changes++;
+}
+
+/* Steps that changed nothing are forgotten. What was done in part, or the journal cannot keep, is taken
+ * back. */
 static enum status end_step(struct session *session, struct error *err)
 {
-    struct octree_regions regions;
     const struct octree_tape *tape = &session->history.tape;
     const bool changed = tape->count > 0 || tape->lost || tape->before.root != session->tree.root;
-    const size_t done = session->history.done + changed;
-    history_end(&session->history, &session->tree, NULL);
-    session->forgotten += done - session->history.done;
+    size_t steps = session->history.done;
     enum status status = STATUS_OK;
-    if (changed && session->step.count > 0) {
+    if (changed && !session->step.failed) {
         session->step.items[session->step.count++] = (struct chip){.kind = CHIP_STEP, .material = 1};
         status = record(session, session->step.items, session->step.count, err);
     }
-    session->step.count = 0;
-    if (status && history_undo(&session->history, &session->tree, &regions)) {
-        changed_in(session, &regions);
-    } else if (status) {
-        session->unsaved = session->log_lost = true; /* too large a step to be taken back */
-        session->changes++;
+    if (status || session->step.failed) {
+        take_back(session);
+    } else {
+        history_end(&session->history, &session->tree, NULL);
+        steps += changed;
     }
+    session->forgotten += steps - session->history.done;
+    session->step.count = 0;
+    session->step.failed = false;
     return status;
 }
 

@@ -47,6 +47,7 @@ struct session {
     struct {
         struct chip *items;
         size_t count, capacity;
+        bool failed; /* one of them may be done in part */
     } step; /* operations of the step that is open; they become the journal's and the log's at its end */
     struct bytes log_before;     /* the chip log that the file had; empty: none */
     bool log_lost;               /* no script describes what the sculpture began as */
@@ -102,7 +103,7 @@ void session_aim(struct session *session, const double origin[3], const double d
 void session_aim_nowhere(struct session *session);
 
 /* The tool's button goes down, moves, goes up: one step for undo. Errors: STATUS_NO_MEMORY, STATUS_FILE (the
- * journal); then the operation is taken back where that is possible. */
+ * journal); then the step is taken back at its end where that is possible. */
 enum status session_press(struct session *session, struct error *err);
 enum status session_drag(struct session *session, struct error *err);
 enum status session_release(struct session *session, struct error *err);

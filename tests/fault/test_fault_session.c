@@ -69,10 +69,40 @@ static void what_is_carved_is_saved_whole_or_the_old_file_stays(void **state)
         }
 }
 
+/* Heat carves in several goes. Where there is no memory for what was there before, that is known too: no
+ * script is said to make what there is now. */
+static void a_step_that_fails_is_taken_back_whole(void **state)
+{
+    (void)state;
+    for (struct fault fault = {.kinds = FAULT_MEMORY}; fault_next(&fault);) {
+        struct error err = {0};
+        struct session session = {0};
+        struct octree before = {0};
+        assert_ok(session_open(&session, "b.oct", 6, false, &err), &err);
+        assert_ok(click(&session, &err), &err);
+        assert_ok(octree_copy(&before, &session.tree, &err), &err);
+        session.tool = TOOL_HEAT;
+        session.mirror = CHIP_MIRROR_X;
+        session.radius = 0.3;
+        fault_begin(&fault);
+        const enum status status = click(&session, &err);
+        fault_end(&fault);
+        if (status)
+            (void)session_release(&session, &err);
+        if (status && !session.log_lost)
+            assert_true(octree_equal(&session.tree, &before));
+        if (status)
+            assert_int_equal(session.log.count, 2);
+        octree_clear(&before);
+        session_clear(&session);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_carved_is_saved_whole_or_the_old_file_stays),
+        cmocka_unit_test(a_step_that_fails_is_taken_back_whole),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

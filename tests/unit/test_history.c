@@ -314,6 +314,28 @@ static void a_step_that_is_cancelled_leaves_no_trace(void **state)
     octree_clear(&tree);
 }
 
+/* Its blocks may be those that a redo would go back to. */
+static void what_was_undone_before_a_cancelled_step_is_not_redone(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct history history;
+    struct octree tree = new_tree(5, 1);
+    history_init(&history, SIZE_MAX);
+    const struct chip large = {.shape = CHIP_SPHERE, .value = {0.5, 0.5, 0.5, 0.4}};
+    const struct chip small = {.shape = CHIP_SPHERE, .value = {0.2, 0.2, 0.2, 0.1}};
+    const uint64_t before = fingerprint(&tree);
+    do_step(&history, &tree, &large, 1);
+    assert_true(history_undo(&history, &tree, NULL));
+    history_begin(&history, &tree);
+    assert_ok(sculpt_chip(&tree, &small, &err), &err);
+    assert_true(history_cancel(&history, &tree));
+    assert_false(history_redo(&history, &tree, NULL));
+    assert_int_equal(fingerprint(&tree), before);
+    history_clear(&history);
+    octree_clear(&tree);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -327,6 +349,7 @@ int main(void)
         cmocka_unit_test(the_oldest_steps_are_dropped_at_the_limit),
         cmocka_unit_test(a_step_larger_than_the_limit_is_done_but_ends_the_history),
         cmocka_unit_test(a_step_that_is_cancelled_leaves_no_trace),
+        cmocka_unit_test(what_was_undone_before_a_cancelled_step_is_not_redone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

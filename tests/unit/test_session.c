@@ -5,6 +5,8 @@
 #include "sculpt/bricks.h"
 #include "sculpt/session.h"
 
+#include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 static struct session session;
@@ -229,6 +231,39 @@ static void work_that_was_taken_up_can_be_taken_up_again(void **state)
     session_clear(&session);
 }
 
+static void limit_files(rlim_t bytes)
+{
+    struct rlimit limit;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &limit), 0);
+    limit.rlim_cur = bytes;
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+}
+
+/* Nor can it be done again, or what was undone before it: the journal and the hand would part. */
+static void what_the_journal_cannot_keep_is_taken_back(void **state)
+{
+    (void)state;
+    signal(SIGXFSZ, SIG_IGN);
+    open_new(5);
+    click(0.3, 0.3);
+    click(0.7, 0.7);
+    assert_true(session_undo(&session, &err));
+    aim(0.7, 0.3);
+    assert_ok(session_press(&session, &err), &err);
+    limit_files(1);
+    const enum status status = session_release(&session, &err);
+    limit_files(RLIM_INFINITY);
+    assert_int_equal(status, STATUS_FILE);
+    assert_script("depth 5\nchip sphere 0.3 0.3 1 0.08\n");
+    assert_false(session_redo(&session, &err));
+    assert_true(session_undo(&session, &err));
+    assert_true(session_redo(&session, &err));
+    kill_session();
+    assert_ok(session_open(&session, "new.oct", 5, true, &err), &err);
+    assert_script("depth 5\nchip sphere 0.3 0.3 1 0.08\n");
+    session_clear(&session);
+}
+
 static void two_hands_cannot_carve_one_sculpture(void **state)
 {
     (void)state;
@@ -325,6 +360,7 @@ int main(void)
         cmocka_unit_test(what_is_saved_is_what_is_opened_and_its_log_replays),
         cmocka_unit_test(work_that_was_not_saved_is_taken_up_again),
         cmocka_unit_test(work_that_was_taken_up_can_be_taken_up_again),
+        cmocka_unit_test(what_the_journal_cannot_keep_is_taken_back),
         cmocka_unit_test(two_hands_cannot_carve_one_sculpture),
         cmocka_unit_test(bricks_have_all_faces_and_change_only_where_a_chip_fell),
     };
