@@ -143,7 +143,38 @@ bool scene_find_cut_number(const char *text, struct scene_slip *slip)
     return false;
 }
 
-enum { DEEPEST = 64 };
+enum { DEEPEST = 64 }; /* brackets in brackets */
+
+/* As long as the row of numbers is whose `[` was just read, its `]` included; 0: it is none. */
+static size_t row_length(struct scan scan)
+{
+    const char *from = scan.at;
+    for (int open = 1; open > 0;) {
+        const struct token token = next(&scan);
+        if (is(&token, '[') || is(&token, ']'))
+            open += is(&token, '[') ? 1 : -1;
+        else if (token.kind != NUMBER && !is(&token, ','))
+            return 0;
+        if (open > DEEPEST) /* or time would grow with the square of what is open */
+            return 0;
+    }
+    return (size_t)(scan.at - from);
+}
+
+void scene_loosen_arrays(char *text)
+{
+    struct scan scan = {text, 1};
+    size_t end = 0; /* of the row that is being loosened */
+    for (struct token token = next(&scan); token.kind != END; token = next(&scan)) {
+        const size_t at = (size_t)(token.from - text);
+        if (is(&token, '[') && at >= end) {
+            const size_t length = row_length(scan);
+            end = length > 0 ? at + 1 + length : end;
+        }
+        if (at < end && (is(&token, '[') || is(&token, ']')))
+            text[at] = *token.from == '[' ? '(' : ')';
+    }
+}
 
 /* Where in the grammar the reader is. */
 enum state { KEY, EQUALS, VALUE, AFTER };
@@ -190,13 +221,18 @@ static bool read_key(struct reader *r, const struct token *token)
     if (token->kind == END || closes(token))
         return close_one(r, token);
     if (token->kind == NUMBER && is(&before, ',') && before.from[-1] >= '0' && before.from[-1] <= '9')
-        return say(r->slip, token->line, "`,%.*s`: decimals stand behind a point", shown(token), token->from);
+        return say(r->slip, token->line,
+                   "`,%.*s`: decimals stand behind a point, several numbers in brackets: [0, 1, 2.5]",
+                   shown(token), token->from);
     if (token->kind == TEXT)
         return say(r->slip, token->line, "%.*s: the names of keys stand without quotes", shown(token),
                    token->from);
     if (opens(token))
         return say(r->slip, token->line, "`%c` has no name; write name = %c ... %c", *token->from,
                    *token->from, partner(token));
+    if (token->kind == NUMBER && is(&before, '{'))
+        return say(r->slip, token->line, "`{ %.*s`: numbers stand in brackets: [0, 1, 2.5]", shown(token),
+                   token->from);
     if (token->kind != WORD)
         return say(r->slip, token->line, "`%.*s` stands where a key is wanted", shown(token), token->from);
     r->key = *token;
@@ -222,6 +258,8 @@ static bool read_value(struct reader *r, const struct token *token)
     if (opens(token)) {
         if (r->depth == DEEPEST)
             return say(r->slip, token->line, "more than %d brackets are open", DEEPEST);
+        if (is(token, '{') && r->depth > 0 && is(&r->open[r->depth - 1], '['))
+            return say(r->slip, token->line, "blocks stand in parentheses: ( { ... }, { ... } )");
         r->open[r->depth++] = *token;
         r->state = in_group(r) ? KEY : VALUE;
         return false;

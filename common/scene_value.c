@@ -235,9 +235,7 @@ config_setting_t *scene_parse_value(config_t *config, const char *text)
     if (!line)
         return NULL;
     snprintf(line, room, "v = %s;", text);
-    for (char *c = line; *c && !strchr(text, '"');
-         c++) /* [ ] would want all numbers alike: [0, 1, 2.5] is refused */
-        *c = *c == '[' ? '(' : *c == ']' ? ')' : *c;
+    scene_loosen_arrays(line);
     bool good = config_read_string(config, line);
     if (!good && !strpbrk(text, "\"\\\n")) {
         snprintf(line, room, "v = \"%s\";", text);
@@ -252,16 +250,19 @@ config_setting_t *scene_parse_value(config_t *config, const char *text)
 static enum status refuse_grammar(const config_t *config, const char *path, const char *text,
                                   struct error *err)
 {
-    const char *file = config_error_file(config) ? config_error_file(config) : path;
+    const char *included = config_error_file(config), *wrong = config_error_text(config);
     struct scene_slip slip = {.line = (unsigned)config_error_line(config)};
-    if (strstr(config_error_text(config), "mismatched element"))
-        snprintf(slip.text, sizeof slip.text, "write [0.0, 1.0, 2.5] or (0, 1, 2.5)");
-    else if (strstr(config_error_text(config), "duplicate"))
+    if (strstr(wrong, "duplicate"))
         snprintf(slip.text, sizeof slip.text, "a key stands twice in its block");
-    else if (config_error_file(config) || !scene_find_slip(text, &slip))
+    else if (!included && scene_find_slip(text, &slip))
+        wrong = "syntax error";
+    else if (strstr(wrong, "mismatched element"))
+        snprintf(slip.text, sizeof slip.text, "write %s, numbers alone",
+                 included ? "[0.0, 1.0, 2.5] or (0, 1, 2.5)" : "[0, 1, 2.5]");
+    else
         snprintf(slip.text, sizeof slip.text,
                  "a scene is made of lines like key = value; with text in quotes");
-    return error_set(err, STATUS_INPUT, "%s:%u: %s; %s", file, slip.line, config_error_text(config),
+    return error_set(err, STATUS_INPUT, "%s:%u: %s; %s", included ? included : path, slip.line, wrong,
                      slip.text);
 }
 
@@ -270,5 +271,11 @@ enum status scene_parse_text(config_t *config, const char *path, const char *tex
     struct scene_slip slip;
     if (scene_find_cut_number(text, &slip))
         return error_set(err, STATUS_INPUT, "%s:%u: %s", path, slip.line, slip.text);
-    return config_read_string(config, text) ? STATUS_OK : refuse_grammar(config, path, text, err);
+    char *loose = strdup(text);
+    if (!loose)
+        return error_no_memory(err, path);
+    scene_loosen_arrays(loose);
+    const bool good = config_read_string(config, loose);
+    free(loose);
+    return good ? STATUS_OK : refuse_grammar(config, path, text, err);
 }

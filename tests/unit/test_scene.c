@@ -107,7 +107,10 @@ static void what_is_wrong_is_named_with_its_line(void **state)
         {"time = 3;", ":1: time must be a block"},
         {"view = { size = [640]; };", ":1: size must be 2 numbers"},
         {"view = { size = (640.5, 480); };", ":1: size is 640.5; it must be a whole number"},
-        {"view = { camera = [0, 1, 2.5]; };", ":1: mismatched element type in array; write [0.0, 1.0, 2.5]"},
+        {"view = { camera = [0, 1, \"2.5\"]; };",
+         ":1: mismatched element type in array; write [0, 1, 2.5], numbers alone"},
+        {"view = { camera = [0, 1, 2.5); };", ":1: syntax error; `)` comes before the `]`"},
+        {"view = {\n camera = [0,\n 1, 2.5];\n rate = 0; };", ":4: rate is 0"},
         {"balloons = { mesh = \"a.ply\"; };", ":1: balloons must be a list"},
         {"balloons = ( { mesh = 3; } );", ":1: mesh must be a name in quotes"},
         {"balloons = ( { } );", "balloons[0] has no mesh"},
@@ -136,6 +139,25 @@ static void what_is_wrong_is_named_with_its_line(void **state)
     }
 }
 
+/* Which libconfig alone refuses. */
+static void whole_numbers_stand_beside_others_in_rows(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct scene scene = {0};
+    assert_ok(load("view = { camera = [0, /* ] */ 1, # ]\n 2.5]; target = [0.5, -1e1, 0x2]; };\n"
+                   "balloons = ( { mesh = \"[1, 2.5]\"; colour = [1, .5, 0];\n"
+                   " spring_by_height = { profile = [[0, 1.5], [1, 2]]; }; } );",
+                   &scene, &err),
+              &err);
+    assert_near(scene.view.camera[2], 2.5, 0);
+    assert_near(scene.view.target[1], -10, 0);
+    assert_near(scene.balloons[0].colour[0], 1, 0);
+    assert_near(scene.balloons[0].spring_by_height.profile.row[1][1], 2, 0);
+    assert_string_equal(scene.balloons[0].mesh + strlen(scene.balloons[0].mesh) - 8, "[1, 2.5]");
+    scene_clear(&scene);
+}
+
 /* In place of "syntax error" alone. */
 static void slips_of_the_pen_are_named_with_what_would_be_right(void **state)
 {
@@ -146,6 +168,9 @@ static void slips_of_the_pen_are_named_with_what_would_be_right(void **state)
         {"time = { step = 3 cm; };", ":1: syntax error; `3 cm`: numbers stand without units"},
         {"time = { end = 3cm; };", "`3cm` is no number"},
         {"time = { step = 0,5; };", "`,5`: decimals stand behind a point"},
+        {"view = { camera = 0, 1, 2.5; };", "several numbers in brackets: [0, 1, 2.5]"},
+        {"view = { camera = {0, 1, 2.5}; };", "`{ 0`: numbers stand in brackets: [0, 1, 2.5]"},
+        {"balloons = [ { mesh = \"a.ply\"; } ];", "blocks stand in parentheses: ( { ... }, { ... } )"},
         {"view = { # mono\n stereo = mono; };", ":2: syntax error; `mono` is no value"},
         {"time { step = 1; };", "`=` is missing behind `time`"},
         {"time = { step 1; };", "`=` is missing behind `step`"},
@@ -323,6 +348,7 @@ int main(void)
         cmocka_unit_test(a_scene_with_one_mesh_has_the_papers_settings),
         cmocka_unit_test(every_kind_of_value_is_read),
         cmocka_unit_test(what_is_wrong_is_named_with_its_line),
+        cmocka_unit_test(whole_numbers_stand_beside_others_in_rows),
         cmocka_unit_test(slips_of_the_pen_are_named_with_what_would_be_right),
         cmocka_unit_test(slips_around_quotes_are_found),
         cmocka_unit_test(whole_numbers_that_would_be_cut_to_32_bits_are_refused),
