@@ -2,11 +2,13 @@
  * Newton's equations of a BDF step with its coefficient g, (1 - g J) z = r, J = [0 1; K/m D/m]. The lower row
  * times m and the upper one put into it are
  *     (m - g D - g^2 K) z_v = m r_v + g K r_x,   z_x = r_x + g z_v,
- * and the preconditioner is the one that solver.h has for just that.
+ * and the preconditioner is the one that solver.h has for just that. What pins hold it leaves where it is, to the
+ * bit: points that it moved by a rounding would be put back after the step, and a new run begun for it.
  */
 #include "sim/cvode_solver.h"
 
 #include "sim/jacobian.h"
+#include "sim/pins.h"
 #include "sim/solver.h"
 #include "sim/vectors.h"
 
@@ -104,6 +106,8 @@ static int precondition(realtype t, N_Vector y, N_Vector rate, N_Vector r, N_Vec
     sim_each_part(sim, right_part, &solve);
     solver_precondition(sim, &cvode_solver_of(sim)->points, sim->scratch[CVODE_DF], sim->scratch[CVODE_DV]);
     sim_each_part(sim, result_part, &solve);
+    pins_hold(sim, solve.z);
+    pins_hold(sim, solve.z + sim->point_count);
     scalars_of(sim, r, 1, z);
     return 0;
 }

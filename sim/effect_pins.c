@@ -64,6 +64,13 @@ void pins_mark(const struct sim *sim, unsigned char *held)
     }
 }
 
+void pins_hold(const struct sim *sim, double (*rows)[4])
+{
+    for (size_t k = 0; k < sim->balloon_count; k++)
+        if (sim->balloons[k].pins)
+            hold(sim->balloons[k].pins, rows);
+}
+
 static void apply(struct sim *sim, struct sim_balloon *b)
 {
     hold(b->pins, sim->force);
