@@ -8,14 +8,20 @@
 
 #include "sim/sim.h"
 
+struct sim_body {
+    uint32_t first;                    /* of its scalars */
+    const struct sim_balloon *balloon; /* that it belongs to */
+};
+
 /* Where they are from its first on. */
 enum { SIM_BODY_PLACE = 0, SIM_BODY_SPEED = 3, SIM_BODY_SCALARS = 6 };
 
-/* As sim_add_scalars(). */
-enum status sim_add_body(struct sim *sim, uint32_t *first, struct error *err);
+/* As sim_add_scalars(), for a balloon. */
+enum status sim_add_body(struct sim *sim, const struct sim_balloon *balloon, uint32_t *first,
+                         struct error *err);
 
-/* Whether that scalar is a body's. */
-bool sim_is_of_body(const struct sim *sim, uint32_t scalar);
+/* The body that a scalar is of; NULL: none. */
+const struct sim_body *sim_body_of(const struct sim *sim, uint32_t scalar);
 
 /* A body's place goes on over dt by its speed, and by dt/2 of its `rate` (NULL: none); and the scalars' own
  * rates leave it where it is. */

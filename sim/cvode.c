@@ -5,9 +5,9 @@
  * preconditioned by points.
  *
  * The vector is all positions, all velocities, then the scalars of the state. Its norm is that of weights.h,
- * so the tolerance means what it means to rk-adaptive; scalars count by their own size at the start. Scalars
- * that only record are integrated afterwards by Gauss's rule over the interpolant, three forces a step, so
- * that the run does not notice them.
+ * so the tolerance means what it means to rk-adaptive; scalars count by their own size at the start, and
+ * each of a body's as all points together. Scalars that only record are integrated afterwards by Gauss's rule
+ * over the interpolant, three forces a step, so that the run does not notice them.
  *
  * What the library remembers cannot be saved. So a run of it starts anew at every event, and after RUN_STEPS
  * steps; the blocks hold the state at its start, and a state that was restored is reached again by repeating
@@ -103,8 +103,10 @@ static int weights(N_Vector y, N_Vector weight, void *context)
             }
     }
     for (uint32_t i = 0; i < cvode->scalars; i++) {
-        const double size = fabs(sim->scalar_scratch[START_POSITION][i]);
-        scalars(sim, weight)[i] = size > 0 ? 1 / (tolerance * size) : 1;
+        const double body = weights_of_body(sim, i), size = fabs(sim->scalar_scratch[START_POSITION][i]);
+        scalars(sim, weight)[i] = body > 0   ? sqrt(length) / (tolerance * body)
+                                  : size > 0 ? 1 / (tolerance * size)
+                                             : 1;
     }
     return 0;
 }

@@ -2,8 +2,8 @@
  * Newton's equations of a BDF step with its coefficient g, (1 - g J) z = r, J = [0 1; K/m D/m]. The lower row
  * times m and the upper one put into it are
  *     (m - g D - g^2 K) z_v = m r_v + g K r_x,   z_x = r_x + g z_v,
- * and the preconditioner is the one that solver.h has for just that. What pins hold it leaves where it is, to the
- * bit: points that it moved by a rounding would be put back after the step, and a new run begun for it.
+ * and the preconditioner is the one that solver.h has for just that. What pins hold it leaves where it is, to
+ * the bit: points that it moved by a rounding would be put back after the step, and a new run begun for it.
  */
 #include "sim/cvode_solver.h"
 

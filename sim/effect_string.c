@@ -51,7 +51,7 @@ static enum status open(struct sim *sim, struct sim_balloon *b, struct error *er
     enum status status = patch_find(sim, b, string->scene->place, string->scene->reach, &string->point,
                                     &string->count, err);
     if (!status && string->weight > 0)
-        status = sim_add_body(sim, &string->scalar, err);
+        status = sim_add_body(sim, b, &string->scalar, err);
     if (status)
         return status;
     double mean[3];

@@ -90,10 +90,10 @@ static void place_points(struct sim *sim, double c)
 static double follow_bodies(struct sim *sim, double c, const double *base)
 {
     double farthest = 0;
-    for (const uint32_t *b = sim->body; b < sim->body + sim->body_count; b++) {
+    for (const struct sim_body *b = sim->body; b < sim->body + sim->body_count; b++) {
         double moved = 0, size = 0;
         for (uint32_t i = 0; i < 3; i++) {
-            const uint32_t at = *b + SIM_BODY_PLACE + i, going = *b + SIM_BODY_SPEED + i;
+            const uint32_t at = b->first + SIM_BODY_PLACE + i, going = b->first + SIM_BODY_SPEED + i;
             double *place = &sim->scalar[at], *speed = &sim->scalar[going];
             const double before = *place;
             *speed = base[going] + c * sim->scalar_rate[going];
@@ -119,7 +119,7 @@ static struct change follow_scalars(struct sim *sim, double c)
     double change = 0;
     const double way = follow_bodies(sim, c, base);
     for (uint32_t i = 0; i < sim->scalar_count; i++) {
-        if (sim_is_of_body(sim, i))
+        if (sim_body_of(sim, i))
             continue;
         const double scalar = base[i] + c * sim->scalar_rate[i];
         if (i < sim_state_scalars(sim)) /* what only records must not decide when the iteration ends */

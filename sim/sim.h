@@ -168,7 +168,7 @@ struct sim {
     /* What no point carries, each with its rate of change: integrated along with the positions. */
     uint32_t scalar_count, body_count;
     double *scalar, *scalar_rate; /* [scalar_count] the rates by sim_forces() */
-    uint32_t *body; /* [body_count] the first of each that moves as points do (bodies.h); owned */
+    struct sim_body *body;        /* [body_count] those that move as points do; owned */
 
     const struct scene *scene;
     struct sim_balloon *balloons;  /* [balloon_count] */

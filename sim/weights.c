@@ -1,5 +1,6 @@
 #include "sim/weights.h"
 
+#include "sim/bodies.h"
 #include "sim/membrane.h"
 #include "sim/vectors.h"
 
@@ -47,6 +48,15 @@ enum status weights_open(struct sim *sim, struct error *err)
                 tolerance, i, reachable(sim, b), 10 * reachable(sim, b));
     }
     return STATUS_OK;
+}
+
+double weights_of_body(const struct sim *sim, uint32_t scalar)
+{
+    const struct sim_body *body = sim_body_of(sim, scalar);
+    if (!body)
+        return 0;
+    const double place = body->balloon->radius;
+    return scalar < body->first + SIM_BODY_SPEED ? place : place * body->balloon->breathing_rate;
 }
 
 struct difference {

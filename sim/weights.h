@@ -14,6 +14,10 @@
  * precision of positions can give, which says what it can. */
 enum status weights_open(struct sim *sim, struct error *err);
 
+/* What an error of that scalar is measured in where it is a body's, as a point's place or speed is; 0: it is
+ * none. */
+double weights_of_body(const struct sim *sim, uint32_t scalar);
+
 /* RMS over the points of (dx, dv), both rows of [point_count], over the tolerance. */
 double weights_norm(struct sim *sim, double (*dx)[4], double (*dv)[4], double tolerance);
 
