@@ -197,33 +197,40 @@ static int prepare(struct sim *sim)
     return goes_on && is_at_hand(sim) ? 0 : begin_anew(sim);
 }
 
-static void look(struct sim *sim, double back)
-{
-    const struct cvode *cvode = sim->method;
-    if (CVodeGetDky(cvode->memory, cvode->time - back, 0, cvode->inside) == 0)
-        load(sim, cvode->inside);
-    for (uint32_t i = cvode->scalars; i < sim->scalar_count; i++)
-        sim->scalar[i] -= back / sim->taken * (sim->scalar[i] - sim->scalar_scratch[START_VELOCITY][i]);
-}
-
-/* Those that only record, by three points of Gauss (order 6). */
-static void record(struct sim *sim)
+/* Those that only record, as they were at the last step's start, go on until `back` s before its end, by
+ * three points of Gauss (order 6). */
+static void record_until(struct sim *sim, double back)
 {
     static const double node[3] = {-0.77459666924148338, 0, 0.77459666924148338}, /* sqrt(3/5) */
         weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
     struct cvode *cvode = sim->method;
-    if (cvode->scalars == sim->scalar_count)
-        return;
-    for (uint32_t i = cvode->scalars; i < sim->scalar_count; i++)
-        sim->scalar_scratch[START_VELOCITY][i] = sim->scalar[i];
-    for (int k = 0; k < 3; k++) {
-        if (CVodeGetDky(cvode->memory, cvode->time - sim->taken * (1 - node[k]) / 2, 0, cvode->inside))
+    const double span = sim->taken - back;
+    for (int k = 0; k < 3 && cvode->scalars < sim->scalar_count; k++) {
+        if (CVodeGetDky(cvode->memory, cvode->time - back - span * (1 - node[k]) / 2, 0, cvode->inside))
             continue;
         load(sim, cvode->inside);
         ledger_forces(sim);
         for (uint32_t i = cvode->scalars; i < sim->scalar_count; i++)
-            sim->scalar[i] += weight[k] * sim->taken * sim->scalar_rate[i];
+            sim->scalar[i] += weight[k] * span * sim->scalar_rate[i];
     }
+}
+
+static void record(struct sim *sim)
+{
+    const struct cvode *cvode = sim->method;
+    for (uint32_t i = cvode->scalars; i < sim->scalar_count; i++)
+        sim->scalar_scratch[START_VELOCITY][i] = sim->scalar[i];
+    record_until(sim, 0);
+}
+
+static void look(struct sim *sim, double back)
+{
+    const struct cvode *cvode = sim->method;
+    for (uint32_t i = cvode->scalars; i < sim->scalar_count; i++)
+        sim->scalar[i] = sim->scalar_scratch[START_VELOCITY][i];
+    record_until(sim, back);
+    if (CVodeGetDky(cvode->memory, cvode->time - back, 0, cvode->inside) == 0)
+        load(sim, cvode->inside);
 }
 
 static enum status advance(struct sim *sim, double longest, struct error *err)

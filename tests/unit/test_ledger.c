@@ -151,6 +151,35 @@ static void a_look_inside_a_step_finds_the_accounts_as_they_were(void **state)
     close_balloon(&b);
 }
 
+/* A row of a log between two steps: the accounts there are as good as at the steps' ends, by 1e-6 of the work
+ * at a tolerance of 1e-8. */
+static void accounts_inside_a_step_balance_as_well_as_at_its_end(void **state)
+{
+    (void)state;
+    static const char *const methods[] = {"rk-adaptive", "cvode-adams", "cvode-bdf"};
+    for (int i = 0; i < 3; i++) {
+        struct balloon b;
+        char integrator[64];
+        snprintf(integrator, sizeof integrator, "time.integrator=%s", methods[i]);
+        open_balloon(&b, 2,
+                     SETTINGS(integrator, "time.tolerance=1e-8", "time.step=0.05", "time.end=0.3",
+                              "balloons[0].pressure=4"));
+        open_books(&b);
+        double inside = 0, work = 0;
+        while (!sim_at_end(&b.sim)) {
+            const double before = b.sim.time;
+            steps(&b, 1);
+            sim_look(&b.sim, before + 0.3 * (b.sim.time - before));
+            inside = fmax(inside, fabs(balance(&b).error));
+            sim_look_end(&b.sim);
+            work = fmax(work, balance(&b).pressure_work);
+        }
+        print_message("# %s: %.3g of %.3g\n", methods[i], inside, work);
+        assert_true(inside < 1e-6 * work);
+        close_balloon(&b);
+    }
+}
+
 static void the_accounts_are_equal_to_the_bit_for_any_number_of_threads(void **state)
 {
     (void)state;
@@ -239,6 +268,7 @@ int main(void)
         cmocka_unit_test(a_scheduled_change_of_springs_is_the_users_work),
         cmocka_unit_test(it_balances_through_a_burst),
         cmocka_unit_test(a_look_inside_a_step_finds_the_accounts_as_they_were),
+        cmocka_unit_test(accounts_inside_a_step_balance_as_well_as_at_its_end),
         cmocka_unit_test(the_accounts_are_equal_to_the_bit_for_any_number_of_threads),
         cmocka_unit_test(keeping_accounts_changes_no_bit_of_the_state),
         cmocka_unit_test(what_auto_counts_has_none_of_the_accounts_work),
