@@ -153,11 +153,11 @@ void chips_set_coefficients(const struct chips *chips, struct octree *tree);
 enum status chips_save(const struct octree *tree, const char *path, struct error *err);
 
 /* Reads a MagicaVoxel model (versions 150 and 200): every model of the file, moved and turned as its scene
- * graph says, hidden parts left out; of an animation the first frame. Its z is up, so (x, y, z) becomes (x,
- * z, -y): turned upright, not mirrored. The model stands in the middle of the smallest cube that leaves a
- * cell free all around it, and colour numbers become materials. *tree must be valid and is replaced, or as it
- * was after a failure. Errors: STATUS_FILE; STATUS_INPUT with the chunk and its place; STATUS_RANGE for a
- * model of more than 1022 cells a side; STATUS_NO_MEMORY. */
+ * graph says, hidden parts and layers left out; of an animation the first frame. Its z is up, so (x, y, z)
+ * becomes (x, z, -y): turned upright, not mirrored. The model stands in the middle of the smallest cube that
+ * leaves a cell free all around it, and colour numbers become materials. *tree must be valid and is replaced,
+ * or as it was after a failure. Errors: STATUS_FILE; STATUS_INPUT with the chunk and its place; STATUS_RANGE
+ * for a model of more than 1022 cells a side; STATUS_NO_MEMORY. */
 enum status vox_load(const char *path, struct octree *tree, struct error *err);
 
 /* Writes the cells within the sculpture's bounds as a MagicaVoxel model; above 256 cells a side as several

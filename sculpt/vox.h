@@ -25,9 +25,9 @@ struct vox_model {
     const unsigned char *voxels; /* [count][4] x, y, z, colour; in the file's bytes */
 };
 
-enum vox_node_kind { VOX_TRANSFORM, VOX_GROUP, VOX_SHAPE };
+enum vox_node_kind { VOX_TRANSFORM, VOX_GROUP, VOX_SHAPE, VOX_LAYER };
 
-/* One node of the scene graph: a chunk nTRN, nGRP or nSHP. */
+/* One node of the scene graph: a chunk nTRN, nGRP or nSHP. Or a layer: LAYR, numbered by itself. */
 struct vox_node {
     int32_t id;
     enum vox_node_kind kind;
@@ -56,12 +56,18 @@ struct vox_scene {
     struct {
         struct vox_node *items;
         size_t count, capacity;
-    } nodes; /* by ascending id */
+    } nodes; /* those of the graph by ascending id, then the layers by theirs */
     struct {
         struct vox_placement *items;
         size_t count, capacity;
     } placements;
 };
+
+/* What messages call it. */
+static inline const char *vox_node_name(const struct vox_node *node)
+{
+    return node->kind == VOX_LAYER ? "layer" : "scene graph node";
+}
 
 /* Reads models and nodes, which point into the bytes. Errors, without the file's name: STATUS_INPUT,
  * STATUS_NO_MEMORY; the scene needs vox_scene_clear() either way. */

@@ -135,13 +135,16 @@ static enum status read_chunk(struct vox_scene *scene, struct chunk *chunk, stru
         return read_node(scene, chunk, VOX_GROUP, err);
     if (!strcmp(chunk->name, "nSHP"))
         return read_node(scene, chunk, VOX_SHAPE, err);
+    if (!strcmp(chunk->name, "LAYR"))
+        return read_node(scene, chunk, VOX_LAYER, err);
     return STATUS_OK;
 }
 
 static int by_id(const void *a, const void *b)
 {
     const struct vox_node *one = a, *other = b;
-    return (one->id > other->id) - (one->id < other->id);
+    const int layers = (one->kind == VOX_LAYER) - (other->kind == VOX_LAYER);
+    return layers ? layers : (one->id > other->id) - (one->id < other->id);
 }
 
 static enum status sort_nodes(struct vox_scene *scene, struct error *err)
@@ -149,11 +152,12 @@ static enum status sort_nodes(struct vox_scene *scene, struct error *err)
     if (scene->nodes.count == 0)
         return STATUS_OK;
     qsort(scene->nodes.items, scene->nodes.count, sizeof *scene->nodes.items, by_id);
-    for (size_t i = 1; i < scene->nodes.count; i++)
-        if (scene->nodes.items[i].id == scene->nodes.items[i - 1].id)
-            return error_set(err, STATUS_INPUT, "scene graph node %d is there twice, at bytes %zu and %zu",
-                             scene->nodes.items[i].id, scene->nodes.items[i - 1].place,
-                             scene->nodes.items[i].place);
+    for (size_t i = 1; i < scene->nodes.count; i++) {
+        const struct vox_node *one = &scene->nodes.items[i - 1], *other = one + 1;
+        if (!by_id(one, other))
+            return error_set(err, STATUS_INPUT, "%s %d is there twice, at bytes %zu and %zu",
+                             vox_node_name(one), one->id, one->place, other->place);
+    }
     return STATUS_OK;
 }
 

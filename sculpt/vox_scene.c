@@ -103,6 +103,23 @@ static bool parse_rotation(struct vox_cursor string, struct vox_pose *pose)
     return true;
 }
 
+static struct vox_node *find_node(struct vox_scene *scene, bool layer, int32_t id)
+{
+    size_t low = 0, high = scene->nodes.count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        struct vox_node *node = &scene->nodes.items[middle];
+        const int layers = (node->kind == VOX_LAYER) - layer;
+        if (!layers && node->id == id)
+            return node;
+        if (layers < 0 || (!layers && node->id < id))
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return NULL;
+}
+
 struct walk {
     struct vox_scene *scene;
     struct error *err;
@@ -110,8 +127,20 @@ struct walk {
 
 static enum status refuse(const struct walk *walk, const struct vox_node *node, const char *what)
 {
-    return error_set(walk->err, STATUS_INPUT, "scene graph node %d at byte %zu: %s", node->id, node->place,
-                     what);
+    return error_set(walk->err, STATUS_INPUT, "%s %d at byte %zu: %s", vox_node_name(node), node->id,
+                     node->place, what);
+}
+
+/* A layer that the file does not tell of is shown. */
+static enum status find_hidden(const struct walk *walk, int32_t layer, bool *hidden)
+{
+    const struct vox_node *node = find_node(walk->scene, true, layer);
+    *hidden = false;
+    if (!node)
+        return STATUS_OK;
+    struct vox_cursor cursor = {node->contents, node->size, false};
+    *hidden = string_is(read_attributes(&cursor).hidden, "1");
+    return cursor.cut_short ? refuse(walk, node, "LAYR is cut short") : STATUS_OK;
 }
 
 static enum status walk_node(const struct walk *walk, int32_t id, const struct vox_pose *pose, int level);
@@ -122,15 +151,18 @@ static enum status walk_transform(const struct walk *walk, const struct vox_node
     struct vox_cursor cursor = {node->contents, node->size, false};
     struct attributes node_says = read_attributes(&cursor);
     int32_t child = (int32_t)vox_number(&cursor);
-    vox_skip(&cursor, 8); /* reserved; the layer */
+    vox_skip(&cursor, 4); /* reserved */
+    int32_t layer = (int32_t)vox_number(&cursor);
     uint32_t frames = vox_number(&cursor);
     struct attributes frame = {0};
     if (frames > 0)
         frame = read_attributes(&cursor);
     if (cursor.cut_short)
         return refuse(walk, node, "nTRN is cut short");
-    if (string_is(node_says.hidden, "1"))
-        return STATUS_OK;
+    bool hidden;
+    enum status status = find_hidden(walk, layer, &hidden);
+    if (status || hidden || string_is(node_says.hidden, "1"))
+        return status;
     struct vox_pose own = at_rest;
     long shift[3] = {0};
     if (frame.rotation.at && !parse_rotation(frame.rotation, &own))
@@ -174,23 +206,10 @@ static enum status walk_shape(const struct walk *walk, const struct vox_node *no
     return STATUS_OK;
 }
 
-static struct vox_node *find_node(struct vox_scene *scene, int32_t id)
-{
-    size_t low = 0, high = scene->nodes.count;
-    while (low < high) {
-        size_t middle = low + (high - low) / 2;
-        if (scene->nodes.items[middle].id < id)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low < scene->nodes.count && scene->nodes.items[low].id == id ? &scene->nodes.items[low] : NULL;
-}
-
 /* A node may be reached once only: the graph is a tree, or it could be endless. */
 static enum status walk_node(const struct walk *walk, int32_t id, const struct vox_pose *pose, int level)
 {
-    struct vox_node *node = find_node(walk->scene, id);
+    struct vox_node *node = find_node(walk->scene, false, id);
     if (!node)
         return error_set(walk->err, STATUS_INPUT, "scene graph node %d is missing", id);
     if (node->used)
@@ -204,6 +223,7 @@ static enum status walk_node(const struct walk *walk, int32_t id, const struct v
     case VOX_GROUP:
         return walk_group(walk, node, pose, level);
     case VOX_SHAPE:
+    case VOX_LAYER:
         break;
     }
     return walk_shape(walk, node, pose);
@@ -225,7 +245,7 @@ static enum status place_all(struct vox_scene *scene, struct error *err)
 
 enum status vox_place_models(struct vox_scene *scene, struct error *err)
 {
-    if (scene->nodes.count == 0)
+    if (scene->nodes.count == 0 || scene->nodes.items[0].kind == VOX_LAYER)
         return place_all(scene, err);
     const struct walk walk = {scene, err};
     return walk_node(&walk, 0, &at_rest, 0);

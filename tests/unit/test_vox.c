@@ -52,6 +52,7 @@ static void several_models_without_a_scene_are_merged(void **state)
     add_voxels(&model, one, 2);
     add_size(&model, 4, 1, 1);
     add_voxels(&model, other, 2);
+    add_layer(&model, 0, true); /* in which nothing is */
     struct octree tree = load(&model);
     struct octree_info info = octree_measure(&tree);
     assert_int_equal(info.cells, 3);
@@ -148,6 +149,37 @@ static void nested_moves_add_up_and_hidden_parts_are_left_out(void **state)
     octree_clear(&tree);
 }
 
+/* A part, a group of parts, and what no layer is known of. Layers have numbers of their own. */
+static void what_is_in_a_hidden_layer_is_left_out(void **state)
+{
+    (void)state;
+    for (uint32_t hidden = 0; hidden < 4; hidden++) {
+        static const uint64_t cells[] = {1 + 2 + 4 + 8, 2 + 4 + 8, 1 + 8, 8}; /* of the parts that are left */
+        struct model model = new_model();
+        for (uint32_t part = 0; part < 4; part++) {
+            static const unsigned char row[][4] = {{0, 0, 0, 1}, {1, 0, 0, 1}, {2, 0, 0, 1}, {3, 0, 0, 1},
+                                                   {4, 0, 0, 1}, {5, 0, 0, 1}, {6, 0, 0, 1}, {7, 0, 0, 1}};
+            add_size(&model, 8, 1, 1);
+            add_voxels(&model, row, 1u << part);
+            add_shape(&model, 10 + part, part);
+        }
+        add_transform(&model, 0, 1, NULL, NULL, false);
+        add_group(&model, 1, (const uint32_t[]){2, 3, 4}, 3);
+        add_transform_of_layer(&model, 1, 2, 10, NULL, NULL, false);
+        add_transform_of_layer(&model, 2, 3, 7, NULL, "0 5 0", false);
+        add_transform_of_layer(&model, 77, 4, 13, NULL, "0 9 0", false);
+        add_group(&model, 7, (const uint32_t[]){5, 6}, 2);
+        add_transform(&model, 5, 11, NULL, NULL, false);
+        add_transform(&model, 6, 12, NULL, "0 1 0", false);
+        add_layer(&model, 2, hidden & 2);
+        add_layer(&model, 1, hidden & 1);
+        add_layer(&model, 0, false);
+        struct octree tree = load(&model);
+        assert_int_equal(octree_measure(&tree).cells, cells[hidden]);
+        octree_clear(&tree);
+    }
+}
+
 /* The same cells with the same materials, wherever in the cube. */
 static void assert_same_sculpture(const struct octree *a, const struct octree *b)
 {
@@ -224,6 +256,7 @@ int main(void)
         cmocka_unit_test(a_scene_moves_models_by_their_middle),
         cmocka_unit_test(a_scene_turns_models),
         cmocka_unit_test(nested_moves_add_up_and_hidden_parts_are_left_out),
+        cmocka_unit_test(what_is_in_a_hidden_layer_is_left_out),
         cmocka_unit_test(a_saved_sculpture_comes_back),
         cmocka_unit_test(a_long_sculpture_is_saved_as_several_models),
         cmocka_unit_test(an_empty_sculpture_is_not_saved),

@@ -78,12 +78,9 @@ static inline void add_string(struct model *model, const char *text)
     add_bytes(model, text, strlen(text));
 }
 
-/* A transform node; texts that are NULL are left out. */
-static inline void add_transform(struct model *model, uint32_t id, uint32_t child, const char *rotation,
-                                 const char *translation, bool hidden)
+/* What transform nodes and layers say of themselves. */
+static inline void add_attributes(struct model *model, bool hidden)
 {
-    size_t contents = begin_chunk(model, "nTRN");
-    add_number(model, id);
     add_number(model, hidden ? 2 : 1);
     add_string(model, "_name");
     add_string(model, "part");
@@ -91,9 +88,27 @@ static inline void add_transform(struct model *model, uint32_t id, uint32_t chil
         add_string(model, "_hidden");
         add_string(model, "1");
     }
+}
+
+static inline void add_layer(struct model *model, uint32_t id, bool hidden)
+{
+    size_t contents = begin_chunk(model, "LAYR");
+    add_number(model, id);
+    add_attributes(model, hidden);
+    add_number(model, UINT32_MAX);
+    end_chunk(model, contents);
+}
+
+/* A transform node; texts that are NULL are left out. */
+static inline void add_transform_of_layer(struct model *model, uint32_t layer, uint32_t id, uint32_t child,
+                                          const char *rotation, const char *translation, bool hidden)
+{
+    size_t contents = begin_chunk(model, "nTRN");
+    add_number(model, id);
+    add_attributes(model, hidden);
     add_number(model, child);
     add_number(model, UINT32_MAX);
-    add_number(model, 0);
+    add_number(model, layer);
     add_number(model, 1);
     add_number(model, (rotation != NULL) + (translation != NULL));
     if (rotation) {
@@ -105,6 +120,12 @@ static inline void add_transform(struct model *model, uint32_t id, uint32_t chil
         add_string(model, translation);
     }
     end_chunk(model, contents);
+}
+
+static inline void add_transform(struct model *model, uint32_t id, uint32_t child, const char *rotation,
+                                 const char *translation, bool hidden)
+{
+    add_transform_of_layer(model, 0, id, child, rotation, translation, hidden);
 }
 
 static inline void add_group(struct model *model, uint32_t id, const uint32_t *children, uint32_t count)
