@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <malloc.h>
 #include <math.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,6 +24,7 @@ void command_begin(const char *program)
     command_name = program;
     argp_program_version_hook = print_version;
     argp_err_exit_status = 2;
+    signal(SIGXFSZ, SIG_IGN);
 }
 
 void command_keep_memory(void)

@@ -15,6 +15,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* Names the program. A file that may not grow is an error from then on, like a full disk: the system would
+ * end the program. */
 void command_begin(const char *program);
 
 /* argp_parse(), which ends the program with a message and exit code 2 where the command line is

@@ -12,7 +12,6 @@
 #include "sculpt/session.h"
 #include "sculpt/window.h"
 
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -367,7 +366,6 @@ int main(int argc, char **argv)
     struct error err = {0};
     struct options options = {.depth = -1, .exports = array_new((size_t)argc, sizeof *options.exports)};
     command_begin("balloon-sculpt");
-    signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is an error like a full disk */
     if (!options.exports) {
         error_no_memory(&err, "the options");
         return command_fail(&err);

@@ -8,7 +8,6 @@
 #include "sim/window.h"
 
 #include <math.h>
-#include <signal.h>
 #include <stdlib.h>
 
 static enum status load_scene(const struct options *options, struct scene *scene, struct error *err)
@@ -164,7 +163,6 @@ int main(int argc, char **argv)
     struct error err = {0};
     command_begin("balloon-sim");
     command_keep_memory();
-    signal(SIGXFSZ, SIG_IGN); /* a file that may not grow is an error like a full disk */
     if (!options_parse(&options, argc, argv))
         return command_fail(&(struct error){.status = STATUS_NO_MEMORY});
     enum status status = STATUS_OK;

@@ -16,3 +16,12 @@ refused 1 'no point reaches' balloon-surface cube.oct --threshold 3 -o a.ply
 expect 1 sh -c 'balloon-surface cube.oct --info >/dev/full'
 stderr_has 'cannot write the results'
 only_files cube.oct kept.oct full.ply same.ply a.ply
+
+# A file that may not grow is like a full disk: no more than 1024 bytes here.
+if files_can_be_small 2 balloon-surface; then
+    expect 1 sh -c 'ulimit -f 2; balloon-surface -q cube.oct -o a.ply'
+    stderr_has 'a\.ply: cannot write: File too large'
+    one_message
+    [ "$(cat a.ply)" = old ] || fail "a.ply was touched"
+    only_files cube.oct kept.oct full.ply same.ply a.ply
+fi
