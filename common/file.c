@@ -168,6 +168,18 @@ enum status file_out_open(const char *path, struct file_out **result, struct err
     return STATUS_OK;
 }
 
+enum status file_out_check(const char *path, struct error *err)
+{
+    struct stat info;
+    struct file_out *trial;
+    if (!stat(path, &info) && S_ISFIFO(info.st_mode))
+        return STATUS_OK;
+    enum status status = file_out_open(path, &trial, err);
+    if (!status)
+        file_out_abandon(trial);
+    return status;
+}
+
 FILE *file_out_stream(struct file_out *out)
 {
     return out->stream;

@@ -42,6 +42,10 @@ struct file_out;
  */
 enum status file_out_open(const char *path, struct file_out **out, struct error *err);
 
+/* Whether it could be replaced, for who would know before long work. Of a pipe that is not asked: who reads
+ * from it would meet its end. Errors: those of file_out_open(). */
+enum status file_out_check(const char *path, struct error *err);
+
 /* The stream to write to; it belongs to `out`. */
 FILE *file_out_stream(struct file_out *out);
 

@@ -275,15 +275,6 @@ static enum status report(struct mesh *mesh, const struct arguments *arguments, 
 }
 
 /* What cannot be written is known before the work. */
-static enum status check_file(const char *target, struct error *err)
-{
-    struct file_out *trial;
-    if (file_out_open(target, &trial, err))
-        return err->status;
-    file_out_abandon(trial);
-    return STATUS_OK;
-}
-
 static enum status check_files(const struct arguments *arguments, struct error *err)
 {
     const char *targets[] = {arguments->output, arguments->render, arguments->cost};
@@ -291,8 +282,8 @@ static enum status check_files(const struct arguments *arguments, struct error *
         if (targets[i] && file_same(targets[i], arguments->input))
             return error_set(err, STATUS_FILE, "%s: is the sculpture itself; write to another file",
                              targets[i]);
-    if ((arguments->output && check_file(arguments->output, err)) ||
-        (arguments->render && check_file(arguments->render, err)))
+    if ((arguments->output && file_out_check(arguments->output, err)) ||
+        (arguments->render && file_out_check(arguments->render, err)))
         return err->status;
     return STATUS_OK; /* cost_check() knows the names of what it writes */
 }

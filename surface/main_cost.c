@@ -157,13 +157,10 @@ static char *table_name(const char *path)
 
 enum status cost_check(const char *path, struct error *err)
 {
-    struct file_out *out;
     char *name = table_name(path);
     if (!name)
         return error_no_memory(err, path);
-    enum status status = file_out_open(name, &out, err);
-    if (status == STATUS_OK)
-        file_out_abandon(out);
+    enum status status = file_out_check(name, err);
     free(name);
     return status;
 }

@@ -25,3 +25,11 @@ if files_can_be_small 2 balloon-surface; then
     [ "$(cat a.ply)" = old ] || fail "a.ply was touched"
     only_files cube.oct kept.oct full.ply same.ply a.ply
 fi
+
+# Who reads from a pipe gets the mesh.
+mkfifo pipe.ply
+cat pipe.ply >read.ply &
+expect 0 timeout 20 balloon-surface -q cube.oct -o pipe.ply
+wait
+expect 0 balloon-surface -q cube.oct -o a.ply
+same_file read.ply a.ply
