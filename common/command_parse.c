@@ -69,8 +69,37 @@ static void refuse_unknown(const struct argp_option *options, int argc, char **a
     }
 }
 
+/* What is parsed: argp hands its parser nothing of ours. */
+static const struct argp *program;
+static const char *given[COMMAND_KEYS],
+    *replaced[COMMAND_KEYS]; /* by key: what counts, and what came before */
+
+/* At the end, when it is known whether notes are wanted. */
+static void tell_replaced(void)
+{
+    for (const struct argp_option *o = program->options; o->name; o++)
+        if (replaced[o->key] && !(o->flags & OPTION_REPEATS))
+            command_note("--%s %s does nothing: --%s %s comes after it", o->name, replaced[o->key], o->name,
+                         given[o->key]);
+}
+
+static error_t parse(int key, char *argument, struct argp_state *state)
+{
+    if (key > 0 && key < COMMAND_KEYS && argument) {
+        if (given[key] && strcmp(given[key], argument) != 0)
+            replaced[key] = given[key];
+        given[key] = argument;
+    }
+    if (key == ARGP_KEY_END)
+        tell_replaced();
+    return program->parser(key, argument, state);
+}
+
 void command_parse(const struct argp *argp, int argc, char **argv, void *input)
 {
+    struct argp noting = *argp;
+    noting.parser = parse;
+    program = argp;
     refuse_unknown(argp->options, argc, argv);
-    argp_parse(argp, argc, argv, 0, NULL, input);
+    argp_parse(&noting, argc, argv, 0, NULL, input);
 }

@@ -45,7 +45,7 @@ static const struct argp_option option_list[] = {
      "Begin with the work on FILE.oct that a killed program left in FILE.oct.journal", 0},
     {"solid", OPTION_SOLID, NULL, 0, "Fill the hollows of what is begun with", 0},
     {"output", 'o', "FILE.oct", 0, "Save the sculpture", 0},
-    {"export", OPTION_EXPORT, "FILE", 0,
+    {"export", OPTION_EXPORT, "FILE", OPTION_REPEATS,
      "Write .vox (MagicaVoxel), .ply (the faces of the cubes) or .chips (a script); may be repeated", 0},
     {"render", OPTION_RENDER, "FILE.png", 0, "Draw the sculpture", 0},
     {"info", OPTION_INFO, NULL, 0, "Print figures about the sculpture", 0},
