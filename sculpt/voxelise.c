@@ -30,6 +30,7 @@ struct slab {
     int *totals;        /* [side * side] what all crossings of each line along z sum up to */
     uint32_t *next;     /* [side * side] the first crossing of each line along z that lies ahead */
     bool parity;        /* crossings count without their sense */
+    bool closed;        /* the mesh has no open edges */
 };
 
 struct job {
@@ -112,11 +113,14 @@ static struct octree_cover grid_covers(const void *shape, const double corner[3]
 }
 
 /* How many of the two rays along a line, backwards and forwards, say "inside": `behind` is what the crossings
- * behind sum up to and `total` all of them. Each is +1 on the way in. */
-static int line_votes(int behind, int total, bool parity)
+ * behind sum up to and `total` all of them. Each is +1 on the way in. Less than 0 is outside of an open mesh,
+ * seen through a hole; in a closed one it is a part that is inside out. */
+static int line_votes(const struct slab *slab, int behind, int total)
 {
-    if (parity)
+    if (slab->parity)
         return (behind & 1) + ((total - behind) & 1);
+    if (slab->closed && total == 0)
+        return behind != 0 ? 2 : 0;
     return (behind > 0) + (behind - total > 0);
 }
 
@@ -144,7 +148,7 @@ static void vote_along(struct slab *slab, const uint32_t *items, uint32_t from, 
     for (int i = 0; i < slab->side; i++) {
         behind += change[i];
         votes[(ptrdiff_t)i * stride] = (signed char)(votes[(ptrdiff_t)i * stride] +
-                                                     line_votes(behind, total, slab->parity));
+                                                     line_votes(slab, behind, total));
     }
 }
 
@@ -182,8 +186,7 @@ static void vote_along_z(struct slab *slab, int z)
             continue;
         while (slab->next[i] < along->begin[i + 1] && along->items[slab->next[i]] / 2 <= (uint32_t)z)
             slab->windings[i] += crossing_sign(slab, along->items[slab->next[i]++]);
-        slab->votes[i] = (signed char)(slab->votes[i] +
-                                       line_votes(slab->windings[i], slab->totals[i], slab->parity));
+        slab->votes[i] = (signed char)(slab->votes[i] + line_votes(slab, slab->windings[i], slab->totals[i]));
     }
 }
 
@@ -256,7 +259,8 @@ static enum status fill_grid(struct job *job, struct error *err)
                         .windings = calloc(side * side + side, sizeof *slab.windings),
                         .totals = calloc(side * side, sizeof *slab.totals),
                         .next = array_new(side * side, sizeof *slab.next),
-                        .parity = job->report->mesh.inconsistent_edges > 0};
+                        .parity = job->report->mesh.inconsistent_edges > 0,
+                        .closed = job->report->mesh.boundary_edges == 0};
     enum status status = slab.votes && slab.windings && slab.totals && slab.next
                              ? STATUS_OK
                              : error_no_memory(err, "the slabs");

@@ -123,6 +123,25 @@ static struct mesh two_balls(double shift, bool second_inside_out)
     return both;
 }
 
+/* Beside each other: a ball that is inside out hides nothing of what encloses it. */
+static void a_part_that_is_inside_out_is_a_part(void **state)
+{
+    (void)state;
+    uint64_t inside[2];
+    for (int inside_out = 0; inside_out < 2; inside_out++) {
+        struct error err = {0};
+        struct octree tree = {0};
+        struct voxelise_report report;
+        struct mesh mesh = two_balls(2, inside_out);
+        assert_ok(make(&mesh, &tree, &report, &err), &err);
+        assert_int_equal(report.doubtful, 0);
+        inside[inside_out] = report.inside;
+        octree_clear(&tree);
+        mesh_clear(&mesh);
+    }
+    assert_int_equal(inside[0], inside[1]);
+}
+
 static void balls_that_overlap_are_one(void **state)
 {
     (void)state;
@@ -301,6 +320,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_ball_is_a_ball_to_the_cell),
         cmocka_unit_test(a_ball_with_holes_is_solid_nonetheless),
+        cmocka_unit_test(a_part_that_is_inside_out_is_a_part),
         cmocka_unit_test(balls_that_overlap_are_one),
         cmocka_unit_test(a_shell_is_hollow),
         cmocka_unit_test(a_mesh_turned_inside_out_is_turned_back),
