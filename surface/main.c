@@ -5,6 +5,7 @@
 #include "common/plot.h"
 #include "common/threads.h"
 #include "render/render.h"
+#include "surface/main_coarse.h"
 #include "surface/main_cost.h"
 #include "surface/main_info.h"
 
@@ -248,10 +249,9 @@ static enum status inform(struct mesh *mesh, const struct arguments *arguments, 
     return STATUS_OK;
 }
 
-static enum status report(struct mesh *mesh, const struct arguments *arguments, const struct octree *tree,
+static enum status report(struct mesh *mesh, const struct arguments *arguments, struct octree *tree,
                           const struct surface_stats *stats, struct error *err)
 {
-    const double finest_cell = ldexp(1, -(int)tree->depth);
     if (arguments->output && mesh_save(mesh, arguments->output, err))
         return err->status;
     const struct render_skin skin = {.mesh = mesh, .colour = {0.75f, 0.03f, 0.04f}};
@@ -259,14 +259,7 @@ static enum status report(struct mesh *mesh, const struct arguments *arguments, 
         return err->status;
     if (arguments->info && inform(mesh, arguments, tree, stats, err))
         return err->status;
-    /* the field has nothing finer than one Gaussian, as wide where it is half as high as at its middle; with
-     * one half wider than that needs, what is left of the cells' steps is smooth as well */
-    const double width = 2 * sqrt(2 * log(2)), detail = finest_cell * width * arguments->options.field.sigma;
-    if (stats->cube_size > detail)
-        command_note(
-            "cubes of %.4g are larger than the sculpture's detail, %.4g: the mesh may be rough, and lack what is "
-            "thinner; take more triangles, or smooth it more: --sigma %.2g",
-            stats->cube_size, detail, ceil(10 * 1.5 * stats->cube_size / finest_cell / width) / 10);
+    coarse_note(tree, arguments->input, &arguments->options, mesh, stats->cube_size);
     double wanted = arguments->options.triangles;
     if (wanted > 0 && fabs(mesh->triangle_count / wanted - 1) > 0.05)
         command_note("%u triangles: at no cube size tried were there %.0f; their number goes in steps",
@@ -303,7 +296,7 @@ static enum status price(const struct arguments *arguments, const struct octree 
     return cost_save(&table, arguments->input, arguments->cost, err);
 }
 
-static enum status make(struct arguments *arguments, const struct octree *tree, struct error *err)
+static enum status make(struct arguments *arguments, struct octree *tree, struct error *err)
 {
     struct mesh mesh = {0};
     struct surface_stats stats;
