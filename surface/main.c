@@ -259,7 +259,9 @@ static enum status report(struct mesh *mesh, const struct arguments *arguments, 
         return err->status;
     if (arguments->info && inform(mesh, arguments, tree, stats, err))
         return err->status;
-    coarse_note(tree, arguments->input, &arguments->options, mesh, stats->cube_size);
+    char text[COARSE_TEXT];
+    if (coarse_tell(tree, arguments->input, &arguments->options, mesh, stats->cube_size, text))
+        command_note("%s", text);
     double wanted = arguments->options.triangles;
     if (wanted > 0 && fabs(mesh->triangle_count / wanted - 1) > 0.05)
         command_note("%u triangles: at no cube size tried were there %.0f; their number goes in steps",

@@ -1,6 +1,5 @@
 #include "surface/main_coarse.h"
 
-#include "common/command.h"
 #include "surface/largest.h"
 
 #include <math.h>
@@ -38,8 +37,8 @@ static bool is_shell(struct octree *tree, const struct octree_info *info)
     return !octree_fill_hollows(tree, 0, &hollow, NULL) && hollow > info->cells;
 }
 
-void coarse_note(struct octree *tree, const char *file, const struct surface_options *options,
-                 const struct mesh *mesh, double cube)
+bool coarse_tell(struct octree *tree, const char *file, const struct surface_options *options,
+                 const struct mesh *mesh, double cube, char text[COARSE_TEXT])
 {
     const double cell = ldexp(1, -(int)tree->depth), detail = cell * width_of_one() * options->field.sigma;
     /* where a Gaussian is one half wider than such cubes need, what is left of cells' steps is smooth too */
@@ -48,7 +47,7 @@ void coarse_note(struct octree *tree, const char *file, const struct surface_opt
     const struct octree_info info = octree_measure(tree);
     const double kept = mesh_volume(mesh) / ((double)info.cells * cell * cell * cell);
     if (cube <= detail && kept >= 0.5)
-        return;
+        return false;
     const bool shell = is_shell(tree, &info);
     char help[512] = "";
     if (shell)
@@ -59,13 +58,16 @@ void coarse_note(struct octree *tree, const char *file, const struct surface_opt
         snprintf(help, sizeof help,
                  ", or smooth it more: --sigma %.2g, which loses what is thinner than %.2g", sigma, lost);
     if (cube > detail)
-        command_note(
+        snprintf(
+            text, COARSE_TEXT,
             "cubes of %.4g are larger than the sculpture's detail, %.4g: the mesh may be rough, and lack "
             "what is thinner; take more triangles%s",
             cube, detail, help);
     else if (shell)
-        command_note(
+        snprintf(
+            text, COARSE_TEXT,
             "the mesh holds %.2g %% of what the sculpture's material does: walls are lost that are thin for "
             "a sigma of %g; take a smaller one%s",
             100 * kept, options->field.sigma, help);
+    return cube > detail || shell;
 }

@@ -4,10 +4,12 @@
 
 #include "surface/surface.h"
 
-/* Notes that the mesh made of the sculpture in this file, on cubes of that size, may be rough or have lost
- * thin walls, where that may be; and what of other triangles, another sigma and no hollow would help. The
- * tree is only looked at. */
-void coarse_note(struct octree *tree, const char *file, const struct surface_options *options,
-                 const struct mesh *mesh, double cube);
+enum { COARSE_TEXT = 1024 };
+
+/* Says that the mesh made of the sculpture in this file, on cubes of that size, may be rough or have lost
+ * thin walls, and what of other triangles, another sigma and no hollow would help. False: there is nothing to
+ * say. The tree is only looked at. */
+bool coarse_tell(struct octree *tree, const char *file, const struct surface_options *options,
+                 const struct mesh *mesh, double cube, char text[COARSE_TEXT]);
 
 #endif

@@ -29,3 +29,9 @@ stderr_has "the mesh holds [0-9.]+ % of what the sculpture's material does: .* a
 expect 0 balloon-sculpt shell.oct --solid -o full.oct
 expect 0 balloon-surface full.oct --triangles 6000 --sigma 0.73 --info
 [ ! -s .stderr ] || fail "what it advised is not enough"
+
+# One Gaussian in one cube is far smaller than that, as in the paper: there is nothing to say.
+printf 'depth 0\n' >one.chips
+expect 0 balloon-sculpt --script one.chips -o one.oct
+expect 0 balloon-surface one.oct --fields-per-cube 1 --sigma 0.4 --triangles 800 --info
+[ ! -s .stderr ] || fail "a note on the paper's sphere"
