@@ -47,6 +47,9 @@ struct effect {
     enum status (*settle)(struct sim *sim, struct error *err);
     /* EFFECT_FORCES: at the end of each accepted step too. NULL: nothing. */
     void (*after)(struct sim *sim, struct sim_balloon *balloon);
+    /* The moment, s, at which it changes by itself, and a step must end of a method that chooses its steps.
+     * NULL, or what is over: none. */
+    double (*due)(const struct sim_balloon *balloon);
     /* What it remembers from step to step beyond sim->scalar, as blocks; returns how many. NULL: nothing. */
     size_t (*blocks)(struct sim *sim, struct sim_balloon *balloon, struct sim_block *blocks);
     /* EFFECT_FORCES: what apply leaves for `after` to go by, as blocks; returns how many. NULL: nothing. */
@@ -104,6 +107,9 @@ enum status effects_settle(struct sim *sim, struct error *err); /* EFFECT_MOVED 
  * and that, of one part. */
 size_t effects_begin_forces(struct sim *sim);
 void effects_finish_forces(struct sim *sim, const struct sim_part *part, size_t first);
+
+/* When the next of them changes by itself, s; INFINITY: none does. */
+double effects_due(const struct sim *sim);
 
 /* Of all effects together (struct effect): whether all can go on, their blocks, what forces have left (no
  * more than EFFECT_BLOCKS_MAX a hook), the energy that they hold, their powers, which are added, and what

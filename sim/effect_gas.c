@@ -288,6 +288,12 @@ static void after(struct sim *sim, struct sim_balloon *b)
         guard_bound_outdated(sim);
 }
 
+/* The neck opens. */
+static double due(const struct sim_balloon *b)
+{
+    return b->gas->scene->neck > 0 ? b->gas->scene->neck_at : 0;
+}
+
 static enum status check(struct sim *sim, struct sim_balloon *b, struct error *err)
 {
     const struct gas *gas = b->gas;
@@ -333,6 +339,7 @@ const struct effect effect_gas = {.name = "gas",
                                   .close = close,
                                   .apply = apply,
                                   .after = after,
+                                  .due = due,
                                   .left = left,
                                   .blocks = blocks,
                                   .reorder = reorder,

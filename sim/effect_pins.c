@@ -104,6 +104,11 @@ static void after(struct sim *sim, struct sim_balloon *b)
     }
 }
 
+static double due(const struct sim_balloon *b)
+{
+    return b->scene->pins.until;
+}
+
 static void reorder(struct sim *sim, struct sim_balloon *b, const struct reorder *how)
 {
     (void)sim;
@@ -124,6 +129,7 @@ const struct effect effect_pins = {.name = "pins",
                                    .close = close,
                                    .apply = apply,
                                    .after = after,
+                                   .due = due,
                                    .blocks = blocks,
                                    .reorder = reorder,
                                    .product = product,

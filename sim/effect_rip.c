@@ -78,5 +78,14 @@ static void apply(struct sim *sim, struct sim_balloon *balloon)
         cut(sim, balloon);
 }
 
-const struct effect effect_rip = {
-    .name = "rip", .phase = EFFECT_AFTER_STEP, .wanted = wanted, .apply = apply, .source = "paper 4.1"};
+static double due(const struct sim_balloon *balloon)
+{
+    return balloon->scene->rip.at;
+}
+
+const struct effect effect_rip = {.name = "rip",
+                                  .phase = EFFECT_AFTER_STEP,
+                                  .wanted = wanted,
+                                  .apply = apply,
+                                  .due = due,
+                                  .source = "paper 4.1"};

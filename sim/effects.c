@@ -2,6 +2,7 @@
 #include "common/array.h"
 
 #include <assert.h>
+#include <math.h>
 #include <stdlib.h>
 
 const struct effect *const effects[] = {
@@ -194,6 +195,19 @@ enum status effects_settle(struct sim *sim, struct error *err)
         status = sim->hooks[EFFECT_MOVED][i].effect->settle(sim, err);
     sim->swept &= !sim->changed || sim->pushed;
     return status;
+}
+
+double effects_due(const struct sim *sim)
+{
+    double due = INFINITY;
+    for (int phase = 0; phase < EFFECT_PHASES; phase++)
+        for (size_t i = 0; i < sim->hook_count[phase]; i++) {
+            const struct effect_hook *hook = &sim->hooks[phase][i];
+            const double at = hook->effect->due ? hook->effect->due(hook->balloon) : INFINITY;
+            if (at > sim->time)
+                due = fmin(due, at);
+        }
+    return due;
 }
 
 enum status effects_check(struct sim *sim, struct error *err)

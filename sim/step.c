@@ -172,11 +172,12 @@ static enum status begin_step(struct sim *sim, struct error *err)
     return guard_step(sim, first, err);
 }
 
-/* When a method that chooses its own steps must stop: at the next change, or at the end. */
+/* When a method that chooses its own steps must stop: at the next change, by the user or of what lets go or
+ * opens, or at the end. */
 static double next_due(const struct sim *sim)
 {
     const struct scene *scene = sim->scene;
-    double due = scene->time.end > sim->time ? scene->time.end : INFINITY;
+    double due = fmin(effects_due(sim), scene->time.end > sim->time ? scene->time.end : INFINITY);
     if (sim->next_change < scene->schedule_count)
         due = fmin(due, scene->schedule[sim->next_change].at);
     return due;

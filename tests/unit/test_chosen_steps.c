@@ -1,4 +1,5 @@
-/* Methods that choose their own steps, where something is held, or hangs on a string. */
+/* Methods that choose their own steps, where something is held, hangs on a string, or happens at a time of
+ * its own. */
 #include "moving.h"
 
 static const char *const methods[] = {"rk-adaptive", "cvode-adams", "cvode-bdf"};
@@ -56,11 +57,40 @@ static void a_weight_right_below_asks_for_no_more_steps_than_one_askew(void **st
     }
 }
 
+/* What a scene has happen at a time of its own happens then: a step ends there. */
+static void steps_end_where_something_lets_go_or_opens(void **state)
+{
+    (void)state;
+    static const char *const happens[][4] = {
+        {"balloons[0].pins.until=0.1234567", "balloons[0].pins.reach=20"},
+        {"balloons[0].rip.at=0.1234567", "balloons[0].rip.length=0.5"},
+        {"balloons[0].gas.neck_at=0.1234567", "balloons[0].gas.neck=100", "balloons[0].gas.ambient=10",
+         "balloons[0].gas.fill=1.5"}};
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) {
+            struct balloon b;
+            char integrator[64];
+            snprintf(integrator, sizeof integrator, "time.integrator=%s", methods[i]);
+            const char *all[8] = {integrator, "time.step=0.05", "time.end=0.3"};
+            for (int j = 0; j < 4 && happens[k][j]; j++)
+                all[3 + j] = happens[k][j];
+            open_balloon(&b, 2, all);
+            int met = 0;
+            while (!sim_at_end(&b.sim)) {
+                steps(&b, 1);
+                met += b.sim.time == 0.1234567;
+            }
+            assert_int_equal(met, 1);
+            close_balloon(&b);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_held_asks_for_no_more_steps),
         cmocka_unit_test(a_weight_right_below_asks_for_no_more_steps_than_one_askew),
+        cmocka_unit_test(steps_end_where_something_lets_go_or_opens),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
