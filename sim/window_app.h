@@ -150,9 +150,12 @@ void app_close_pictures(struct app *app);
 void app_draw(struct app *app);
 enum status app_draw_image(struct app *app, struct error *err);
 
-/* The colour of a stretch, in linear light, and where the scale ends. */
-void app_stretch_colour(const struct app *app, double stretch, float colour[3]);
+/* window_scale.c: where the scale of stretch ends, and which part of it a stretch is: 0 at rest and below, 1
+ * at its end. The colour of a part, in linear light: grey through glasses that have hues of their own. */
 double app_stretch_most(const struct app *app);
+double app_stretch_part(const struct app *app, double stretch);
+bool app_scale_is_grey(const struct app *app);
+void app_scale_colour(const struct app *app, double part, float colour[3]);
 
 /* window_panel.c: the boxes of sliders, plot and legend, into app->boxes. False: no memory. */
 bool app_make_boxes(struct app *app);

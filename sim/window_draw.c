@@ -7,17 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* From slack to taut, evenly spaced: dark blue, teal, green, yellow, red. Lightness rises up to the yellow,
- * so that the order can be read without its hues. */
-static const float scale_colours[][3] = {{0.02f, 0.03f, 0.20f},
-                                         {0.01f, 0.17f, 0.30f},
-                                         {0.03f, 0.38f, 0.12f},
-                                         {0.80f, 0.62f, 0.03f},
-                                         {0.62f, 0.01f, 0.01f}};
 static const float wire_colour[3] = {0.02f, 0.02f, 0.025f};
-
-/* Where neither threshold nor strength says which stretch is the last, the scale ends here. */
-static const double longest_scale = 6;
 
 static const double count_seconds = 0.5; /* pictures are counted over */
 
@@ -27,36 +17,6 @@ static const double slow_rate[] = {[RENDER_PAPER] = 55, [RENDER_LATEX] = 40};
 
 /* Sampled ones are tried again after so many seconds, and then after twice as many, up to the most. */
 static const double first_wait = 4, longest_wait = 64;
-
-double app_stretch_most(const struct app *app)
-{
-    const struct sim *sim = app->live.sim;
-    const struct sim_balloon *first = sim->balloons;
-    const double last = first->fracture ? first->scene->fracture.strength
-                                        : first->now->threshold_length / first->mean_rest_length;
-    return fmin(fmax(last, 1.01), longest_scale);
-}
-
-/* 0 at rest and below, 1 at the end of the scale. */
-static double part_of_scale(const struct app *app, double stretch)
-{
-    const double part = (stretch - 1) / (app_stretch_most(app) - 1);
-    return part > 0 ? fmin(part, 1) : 0;
-}
-
-static void scale_colour(double part, float colour[3])
-{
-    const int last = (int)(sizeof scale_colours / sizeof scale_colours[0]) - 1;
-    const int below = part < 1 ? (int)(part * last) : last - 1;
-    const float t = (float)(part * last - below);
-    for (int i = 0; i < 3; i++)
-        colour[i] = scale_colours[below][i] + t * (scale_colours[below + 1][i] - scale_colours[below][i]);
-}
-
-void app_stretch_colour(const struct app *app, double stretch, float colour[3])
-{
-    scale_colour(part_of_scale(app, stretch), colour);
-}
 
 enum status app_open_pictures(struct app *app, struct error *err)
 {
@@ -106,7 +66,7 @@ static void fill_bands(struct app *app)
     for (uint32_t t = 0; t < sim->triangle_count; t++) {
         if (!sim->triangle_active[t])
             continue;
-        const double part = part_of_scale(app, triangle_stretch(sim, t));
+        const double part = app_stretch_part(app, triangle_stretch(sim, t));
         bands->band[t] = (unsigned char)fmin(part * WINDOW_BANDS, WINDOW_BANDS - 1);
         begin[bands->band[t] + 1]++;
     }
@@ -117,7 +77,7 @@ static void fill_bands(struct app *app)
                                        .triangle_count = (uint32_t)begin[i + 1],
                                        .triangle = bands->triangle};
         bands->skin[i] = (struct render_skin){.mesh = &bands->mesh[i]};
-        scale_colour((i + 0.5) / WINDOW_BANDS, bands->skin[i].colour);
+        app_scale_colour(app, (i + 0.5) / WINDOW_BANDS, bands->skin[i].colour);
         begin[i + 1] += begin[i];
     }
     for (uint32_t t = 0; t < sim->triangle_count; t++)
@@ -153,7 +113,8 @@ static bool make_wires(struct app *app, const struct render_view *view)
         memcpy(line->to, sim->position[sim->edge_point[e][1]], sizeof line->to);
         memcpy(line->colour, wire_colour, sizeof line->colour);
         if (app->stretch_colours && app->wires == WIRES_ALONE)
-            app_stretch_colour(app, sim_edge_length(sim, e) / sim->rest_length[e], line->colour);
+            app_scale_colour(app, app_stretch_part(app, sim_edge_length(sim, e) / sim->rest_length[e]),
+                             line->colour);
     }
     return true;
 }

@@ -78,6 +78,13 @@ static void change_order(struct app *app)
     app_say(app, orders[before].text);
 }
 
+static void say_grey(struct app *app)
+{
+    if (app->stretch_colours && app_scale_is_grey(app))
+        app_say(app,
+                "stereo: for red and cyan glasses, through which stretch is grey: the tauter the lighter");
+}
+
 static void view_key(struct app *app, int key, int modifiers)
 {
     if (orbit_key(&app->orbit, key, modifiers & WINDOW_CTRL) || hints_key(&app->hints, key))
@@ -89,6 +96,7 @@ static void view_key(struct app *app, int key, int modifiers)
         break;
     case 'v':
         app_say(app, orbit_change_stereo(&app->orbit, &app->view, window_has_quad(app->window)));
+        say_grey(app);
         break;
     case 's':
         app->view.style = app->view.style == RENDER_LATEX ? RENDER_PAPER : RENDER_LATEX;
@@ -101,6 +109,7 @@ static void view_key(struct app *app, int key, int modifiers)
         break;
     case 'c':
         app->stretch_colours = !app->stretch_colours;
+        say_grey(app);
         break;
     case WINDOW_TAB:
         app->panel = !app->panel;

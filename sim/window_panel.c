@@ -304,7 +304,7 @@ static void add_legend(struct app *app)
         const int top = legend.y + legend.height * (WINDOW_BANDS - 1 - i) / WINDOW_BANDS;
         const int bottom = legend.y + legend.height * (WINDOW_BANDS - i) / WINDOW_BANDS;
         float colour[3];
-        app_stretch_colour(app, 1 + (app_stretch_most(app) - 1) * (i + 0.5) / WINDOW_BANDS, colour);
+        app_scale_colour(app, (i + 0.5) / WINDOW_BANDS, colour);
         add(app, legend.x, top, legend.width, bottom - top, colour, 1);
     }
 }

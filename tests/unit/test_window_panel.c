@@ -21,10 +21,10 @@ void app_show(struct app *app, double frame)
     app->live.shown = (size_t)frame;
 }
 
-void app_stretch_colour(const struct app *app, double stretch, float colour[3])
+void app_scale_colour(const struct app *app, double part, float colour[3])
 {
     (void)app;
-    colour[0] = colour[1] = colour[2] = (float)(0.4 * stretch);
+    colour[0] = colour[1] = colour[2] = (float)(0.4 * (1 + part));
 }
 
 double app_stretch_most(const struct app *app)
