@@ -8,7 +8,7 @@
 
 struct search {
     struct probe probe;
-    double value, point[3];
+    double enough, value, point[3];
     int apart;     /* the side of aligned cubes, a power of 2, in each of which one leaf is looked at */
     int latest[3]; /* that of the leaf before, in such sides */
 };
@@ -46,7 +46,7 @@ static bool look_at_leaf(void *context, const struct octree_leaf *leaf)
         point[face / 2] += face % 2 ? half : -half;
         look(search, point);
     }
-    return !search->probe.failed;
+    return !search->probe.failed && search->value < search->enough;
 }
 
 static void climb(struct search *search)
@@ -73,14 +73,17 @@ static int cubes_apart(const struct field *field)
     return apart;
 }
 
-enum status field_largest(const struct field *field, double *value, double point[3], struct error *err)
+enum status field_largest(const struct field *field, double enough, double *value, double point[3],
+                          struct error *err)
 {
-    struct search search = {.value = -INFINITY, .apart = cubes_apart(field), .latest = {-1, -1, -1}};
+    struct search search = {
+        .enough = enough, .value = -INFINITY, .apart = cubes_apart(field), .latest = {-1, -1, -1}};
     if (probe_init(&search.probe, field, err))
         return err->status;
     probe_expect(&search.probe, 1);
     octree_visit_all(field->tree, look_at_leaf, &search);
-    climb(&search);
+    if (search.value < enough)
+        climb(&search);
     bool failed = search.probe.failed;
     probe_clear(&search.probe);
     if (failed)

@@ -133,7 +133,8 @@ static double sigma_that_reaches(const struct making *making)
     while (value < making->options->threshold) {
         struct field field;
         settings.sigma /= 2;
-        if (field_init(&field, making->tree, &settings, NULL) || field_largest(&field, &value, point, NULL))
+        if (field_init(&field, making->tree, &settings, NULL) ||
+            field_largest(&field, making->options->threshold, &value, point, NULL))
             return 0;
     }
     return settings.sigma;
@@ -143,7 +144,7 @@ static double sigma_that_reaches(const struct making *making)
 static enum status check_reached(const struct making *making, struct error *err)
 {
     double value, point[3], threshold = making->options->threshold, side = making->field.side;
-    if (field_largest(&making->field, &value, point, err))
+    if (field_largest(&making->field, threshold, &value, point, err))
         return err->status;
     if (value >= threshold)
         return STATUS_OK;

@@ -51,16 +51,35 @@ static void few_places_find_as_much_as_all(void **state)
             double value, point[3];
             const struct field_settings settings = {FIELDS_EXACT, 0, sigma[i], 4};
             assert_ok(field_init(&field, &tree, &settings, &err), &err);
-            assert_ok(field_largest(&field, &value, point, &err), &err);
+            assert_ok(field_largest(&field, HUGE_VAL, &value, point, &err), &err);
             assert_true(value >= largest_of_all(&field) * (1 - 1e-9));
             octree_clear(&tree);
         }
+}
+
+/* Whether a threshold is reached is known at the first place that does. */
+static void enough_is_soon_found(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct octree tree = scatter(5, 1);
+    struct field field;
+    double largest, value, point[3];
+    const struct field_settings settings = {FIELDS_EXACT, 0, 2, 4};
+    assert_ok(field_init(&field, &tree, &settings, &err), &err);
+    assert_ok(field_largest(&field, HUGE_VAL, &largest, point, &err), &err);
+    assert_ok(field_largest(&field, largest / 2, &value, point, &err), &err);
+    assert_true(value >= largest / 2 && value < largest);
+    assert_ok(field_largest(&field, 2 * largest, &value, point, &err), &err);
+    assert_true(value == largest);
+    octree_clear(&tree);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(few_places_find_as_much_as_all),
+        cmocka_unit_test(enough_is_soon_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
