@@ -68,21 +68,28 @@ static uint64_t exposed(const struct window *window, int z, int y)
                    window->row[z - 1][y] & window->row[z + 1][y]);
 }
 
+/* Adds a bit worth 2^from to each cell's count: bit x of digit[d] is worth 2^d for cell x. */
+static inline void add_bits(uint64_t digit[5], int from, uint64_t bits)
+{
+    for (int d = from; d < 5; d++) {
+        const uint64_t carry = digit[d] & bits;
+        digit[d] ^= bits;
+        bits = carry;
+    }
+}
+
 /* Full cells that have fewer than 14 full ones among the 27 around them, of one row. All are counted at once,
- * in binary: bit x of digit[d] is worth 2^d for cell x. */
+ * in binary, three of a row together. */
 static uint64_t standing_out(const struct window *window, int z, int y)
 {
-    uint64_t digit[5] = {0}, row = window->row[z][y];
-    for (int i = 0; i < 27; i++) {
-        uint64_t carry = window->row[z + i / 9 - 1][y + i / 3 % 3 - 1] << 1 >> i % 3;
-        for (int d = 0; d < 5; d++) {
-            uint64_t sum = digit[d] ^ carry;
-            carry &= digit[d];
-            digit[d] = sum;
-        }
+    uint64_t digit[5] = {0};
+    for (int i = 0; i < 9; i++) {
+        const uint64_t row = window->row[z + i / 3 - 1][y + i % 3 - 1], below = row << 1, above = row >> 1;
+        add_bits(digit, 0, row ^ below ^ above);
+        add_bits(digit, 1, (row & below) | (row & above) | (below & above));
     }
     uint64_t at_least_14 = digit[4] | (digit[3] & digit[2] & digit[1]);
-    return row & ~at_least_14;
+    return window->row[z][y] & ~at_least_14;
 }
 
 /* Those of the bits of a row of cells that lie in a ball. The sum is taken as for a sphere's chip. */
@@ -110,7 +117,6 @@ static bool decide(const struct window *window, enum chip_kind kind, const struc
     uint32_t any = 0;
     for (int z = 0; z < TILE; z++)
         for (int y = 0; y < TILE; y++) {
-            /* no cell stands out unless one of the cells around it is empty */
             uint64_t bits = window->row[z + 1][y + 1];
             if (bits != 0)
                 bits = kind == CHIP_HEAT ? exposed(window, z + 1, y + 1) : standing_out(window, z + 1, y + 1);
