@@ -6,6 +6,7 @@
 #include "sim/guard.h"
 #include "sim/membrane_kernels.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -82,6 +83,31 @@ static void set_rest(struct sim *sim, const struct sim_balloon *b, uint32_t t, d
     rest[3] = m->modulus * m->thickness * twice / 2;
 }
 
+/* Whether the kernels find a triangle at rest, to a hundredth: tr C = 2 and det C = 1 (membrane_kernels.c,
+ * skin_of). Of one that is h times as wide as long rounding leaves them 1e-16/h^2. */
+static bool is_resolved(const struct sim *sim, uint32_t t, const double rest[4])
+{
+    const uint32_t *p = sim->triangle_point[t];
+    double d1[3], d2[3];
+    vec3_sub(sim->position[p[1]], sim->position[p[0]], d1);
+    vec3_sub(sim->position[p[2]], sim->position[p[0]], d2);
+    const double xx = vec3_dot(d1, d1), xy = vec3_dot(d1, d2), yy = vec3_dot(d2, d2), b0 = rest[0],
+                 b1 = rest[1], b2 = rest[2];
+    const double a = b0 * b0 * xx + b1 * (b1 * xx + 2 * b2 * xy) + b2 * b2 * yy,
+                 d = b0 * b0 * (b2 * b2) * (xx * yy - xy * xy);
+    return fabs(a - 2) <= 0.01 && fabs(d - 1) <= 0.01;
+}
+
+static enum status too_thin(const struct sim *sim, const struct sim_balloon *b, uint32_t t, struct error *err)
+{
+    const double *x = sim->position[sim->triangle_point[t][0]];
+    return error_set(
+        err, STATUS_INPUT,
+        "%s: balloons[%zu].membrane: a triangle near (%g, %g, %g) is so thin that rounding says "
+        "how far it is stretched; take another mesh, as balloon-surface makes, or leave out membrane",
+        sim->scene->path, (size_t)(b - sim->balloons), x[0], x[1], x[2]);
+}
+
 /* A third of each triangle's mass at its corners. What carries no skin keeps the mass that
  * the scene gives points. */
 static void set_masses(struct sim *sim, const struct sim_balloon *b)
@@ -146,8 +172,11 @@ static enum status open(struct sim *sim, struct sim_balloon *b, struct error *er
     m->range = sim_table(sim, sim->part_count, sizeof *m->range);
     if (!m->rest || !m->edge_weight || !m->range)
         return error_no_memory(err, "the membrane");
-    for (uint32_t t = 0; t < triangles; t++)
+    for (uint32_t t = 0; t < triangles; t++) {
         set_rest(sim, b, b->triangle_begin + t, m->rest[t]);
+        if (m->rest[t][0] > 0 && !is_resolved(sim, b->triangle_begin + t, m->rest[t]))
+            return too_thin(sim, b, b->triangle_begin + t, err);
+    }
     set_masses(sim, b);
     set_weights(sim, b);
     let_springs_go(sim, b);

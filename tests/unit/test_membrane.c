@@ -262,6 +262,31 @@ static void scenes_that_contradict_themselves_are_refused(void **state)
     }
 }
 
+/* A corner that is so near the middle of the opposite side that rounding says how far the triangle is
+ * stretched: its energy was any number, or none. One that is 1e-6 of its length wide is still itself. */
+static void triangles_too_thin_for_the_precision_are_refused(void **state)
+{
+    (void)state;
+    for (int thin = 0; thin < 2; thin++) {
+        struct balloon b;
+        struct error err = {0};
+        open_balloon(&b, 1, SETTINGS("balloons[0].membrane.thickness=0.4"));
+        sim_clear(&b.sim);
+        const uint32_t *corner = b.mesh.triangle[0];
+        for (int i = 0; i < 3; i++) {
+            const double middle = (b.mesh.position[corner[1]][i] + b.mesh.position[corner[2]][i]) / 2;
+            b.mesh.position[corner[0]][i] = middle +
+                                            (thin ? 1e-9 : 1e-6) * (b.mesh.position[corner[0]][i] - middle);
+        }
+        const enum status status = sim_open(&b.sim, &b.scene, &b.mesh, 1, &err);
+        if (thin)
+            assert_refused(status, STATUS_INPUT, "balloons[0].membrane: a triangle near", &err);
+        else
+            assert_ok(status, &err);
+        close_balloon(&b);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -274,6 +299,7 @@ int main(void)
         cmocka_unit_test(masses_are_those_of_the_skin),
         cmocka_unit_test(the_guards_bound_holds_for_a_membrane),
         cmocka_unit_test(the_ledger_balances),
+        cmocka_unit_test(triangles_too_thin_for_the_precision_are_refused),
         cmocka_unit_test(scenes_that_contradict_themselves_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
