@@ -25,8 +25,8 @@ static bool leaves_something(const struct octree *tree, const struct surface_opt
     struct field field;
     double value, point[3];
     settings.sigma = sigma;
-    return !field_init(&field, tree, &settings, NULL) && !field_largest(&field, &value, point, NULL) &&
-           value >= options->threshold;
+    return !field_init(&field, tree, &settings, NULL) &&
+           !field_largest(&field, options->threshold, &value, point, NULL) && value >= options->threshold;
 }
 
 /* Whether there is more room within its walls than material in them, as in models of which only the outside
