@@ -171,7 +171,10 @@ void app_drag_slider(struct app *app, int x);
 
 struct panel_box app_slider(const struct app *app, enum live_dial dial);
 struct panel_box app_time_slider(const struct app *app);
+/* What has no room is left out. */
+bool app_has_sliders(const struct app *app);
 bool app_has_plot(const struct app *app);
+bool app_has_legend(const struct app *app);
 struct panel_box app_plot(const struct app *app);
 struct panel_box app_legend(const struct app *app);
 /* How wide texts at the upper border may be: up to the legend, where it is shown. */

@@ -113,6 +113,8 @@ static void view_key(struct app *app, int key, int modifiers)
         break;
     case WINDOW_TAB:
         app->panel = !app->panel;
+        if (app->panel && !app_has_sliders(app))
+            app_say(app, "no room for sliders");
         break;
     case 'm':
         app_record(app);

@@ -60,6 +60,14 @@ struct panel_box app_time_slider(const struct app *app)
     return (struct panel_box){left, app_eye(app).height - MARGIN - ROW, width > 1 ? width : 1, TRACK_HEIGHT};
 }
 
+/* Where they would leave no room for what is written, or for a knob to be moved, they are left out. */
+bool app_has_sliders(const struct app *app)
+{
+    enum { SHORTEST = 12 };
+    return app->panel && track_width(app) >= SHORTEST &&
+           app_slider(app, 0).y - ROW / 2 >= STATE_HEIGHT + MARGIN;
+}
+
 /* The upper border of a plot beside the sliders, */
 static int plot_top(const struct app *app)
 {
@@ -70,7 +78,7 @@ static int plot_top(const struct app *app)
 static int plot_right(const struct app *app)
 {
     const struct panel_box legend = app_legend(app);
-    const bool meets = app->stretch_colours && plot_top(app) < legend.y + legend.height + MARGIN;
+    const bool meets = app_has_legend(app) && plot_top(app) < legend.y + legend.height + MARGIN;
     return app_eye(app).width - (meets ? LEGEND_ROOM : MARGIN);
 }
 
@@ -85,7 +93,7 @@ static bool is_wide(const struct app *app)
 bool app_has_plot(const struct app *app)
 {
     enum { HIGH = 600 };
-    return is_wide(app) || app_eye(app).height >= HIGH;
+    return app_has_sliders(app) && (is_wide(app) || app_eye(app).height >= HIGH);
 }
 
 /* Beside the sliders, or above them where an eye's picture is too narrow. */
@@ -97,21 +105,29 @@ struct panel_box app_plot(const struct app *app)
                               PLOT_HEIGHT};
 }
 
-/* Shorter where it would stand on the sliders. */
+/* Shorter where it would stand on the sliders, or below the picture. */
 struct panel_box app_legend(const struct app *app)
 {
-    enum { SHORTEST = 30 }; /* three numbers */
     const struct panel_box eye = app_eye(app);
-    const int top = 2 * MARGIN + ROW, room = app_slider(app, 0).y - ROW / 2 - 2 * MARGIN - top;
-    const bool meets = app->panel && eye.width - LEGEND_ROOM < NAME_WIDTH + TRACK_WIDTH + 3 * MARGIN;
-    const int height = meets && room < LEGEND_HEIGHT ? room : LEGEND_HEIGHT;
+    const bool meets = app_has_sliders(app) &&
+                       eye.width - LEGEND_ROOM < NAME_WIDTH + TRACK_WIDTH + 3 * MARGIN;
+    const int top = 2 * MARGIN + ROW, bottom = meets ? app_slider(app, 0).y - ROW / 2 - MARGIN : eye.height;
+    const int room = bottom - MARGIN - top;
     return (struct panel_box){eye.width - MARGIN - LEGEND_WIDTH, top, LEGEND_WIDTH,
-                              height > SHORTEST ? height : SHORTEST};
+                              room < LEGEND_HEIGHT ? room : LEGEND_HEIGHT};
+}
+
+/* Where its numbers, or a few words beside it, have no room it is left out. */
+bool app_has_legend(const struct app *app)
+{
+    enum { LOWEST = 30, WORDS = 72 };
+    return app->stretch_colours && app_legend(app).height >= LOWEST &&
+           app_eye(app).width - LEGEND_ROOM >= WORDS;
 }
 
 int app_text_width(const struct app *app)
 {
-    return app_eye(app).width - (app->stretch_colours ? LEGEND_ROOM : 0);
+    return app_eye(app).width - (app_has_legend(app) ? LEGEND_ROOM : 0);
 }
 
 /* The ends of the pressure's or the pump's slider. */
@@ -160,7 +176,7 @@ static bool is_near(const struct panel_box *track, int x, int y)
 
 enum drag app_find_slider(const struct app *app, int x, int y, enum live_dial *dial)
 {
-    if (!app->panel || app_help_alone(app))
+    if (!app_has_sliders(app) || app_help_alone(app))
         return DRAG_NOTHING;
     for (int i = 0; i < LIVE_DIALS; i++) {
         const struct panel_box track = app_slider(app, (enum live_dial)i);
@@ -316,12 +332,11 @@ bool app_make_boxes(struct app *app)
         return false;
     if (app_help_alone(app))
         return true;
-    if (app->panel) {
+    if (app_has_sliders(app))
         add_sliders(app);
-        if (app_has_plot(app))
-            add_plot(app);
-    }
-    if (app->stretch_colours)
+    if (app_has_plot(app))
+        add_plot(app);
+    if (app_has_legend(app))
         add_legend(app);
     return true;
 }

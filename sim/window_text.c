@@ -198,7 +198,7 @@ static struct render_text help_at(int y)
 /* The upper border of what stands at the lower one. */
 static int free_bottom(const struct app *app)
 {
-    if (!app->panel)
+    if (!app_has_sliders(app))
         return app_eye(app).height;
     const int sliders = app_slider(app, 0).y - MARGIN;
     return app_has_plot(app) && app_plot(app).y < sliders ? app_plot(app).y : sliders;
@@ -213,56 +213,88 @@ bool app_help_alone(const struct app *app)
     return app->hints.help && (help.y + height > free_bottom(app) || help.x + width > app_text_width(app));
 }
 
-/* What the run has told, as much of the latest as there is room for. */
-static void add_news(const struct app *app, struct page *page, int below)
+/* A text in the page's storage, broken to the picture's width, and below it the next. Whether it has room. */
+static bool add_wrapped(const struct app *app, struct page *page, const float colour[3], int *below)
 {
-    const int columns = (app_text_width(app) - 3 * MARGIN) / LETTER_WIDTH;
+    int width, height;
+    wrap(room(page), (app_text_width(app) - 3 * MARGIN) / LETTER_WIDTH);
+    render_text_size(add(page, MARGIN, *below, 1, colour, true), &width, &height);
+    *below += height + MARGIN;
+    return *below <= free_bottom(app);
+}
+
+/* What the run has told, as much of the latest as there is room for. False: there is none. */
+static bool add_news(const struct app *app, struct page *page, int below)
+{
     for (size_t first = 0; first < app->news.count; first++) {
         char *text = room(page);
         size_t used = 0;
         for (size_t i = first; i < app->news.count && used < TEXT_SIZE; i++)
             used += (size_t)snprintf(text + used, TEXT_SIZE - used, "%s%s", i > first ? "\n" : "",
                                      app->news.items[i].line);
-        wrap(text, columns);
-        int width, height;
-        render_text_size(add(page, MARGIN, below, 1, cool, true), &width, &height);
-        if (used < TEXT_SIZE && below + height + MARGIN <= free_bottom(app))
-            return;
+        int next = below;
+        if (add_wrapped(app, page, cool, &next) && used < TEXT_SIZE)
+            return true;
         page->count--;
     }
+    return app->news.count == 0;
+}
+
+/* What is told of the state. */
+enum telling { TELL_ALL, TELL_TIME, TELL_NOTHING };
+
+/* What is, and what has just been done or went wrong. False: there is no room. */
+static bool add_state(const struct app *app, struct page *page, enum telling telling, int *below)
+{
+    bool fits = true;
+    if (telling == TELL_ALL)
+        describe_state(app, room(page), TEXT_SIZE);
+    else
+        snprintf(room(page), TEXT_SIZE, "%.3f s%s  F1 help", app->live.sim->time,
+                 app->live.paused ? "  paused" : "");
+    if (telling != TELL_NOTHING || !app->hints.message[0])
+        fits = add_wrapped(app, page, white, below) &&
+               (telling != TELL_ALL || *below <= app_eye(app).height / 2); /* the balloon is to be seen */
+    if (app->hints.message[0]) {
+        snprintf(room(page), TEXT_SIZE, "%s", app->hints.message);
+        fits = add_wrapped(app, page, warm, below) && fits;
+    }
+    return fits;
+}
+
+/* The lines at the upper border. Where there is no room for news otherwise, and in the smallest pictures,
+ * less is told of the state. Returns where they end. */
+static int add_lines(const struct app *app, struct page *page)
+{
+    int below = MARGIN;
+    bool fits = false;
+    for (int with_news = !app->hints.help; with_news >= 0 && !fits; with_news--)
+        for (int telling = TELL_ALL; telling <= TELL_NOTHING && !fits; telling++) {
+            page->count = 0;
+            below = MARGIN;
+            fits = add_state(app, page, (enum telling)telling, &below) &&
+                   (!with_news || add_news(app, page, below));
+        }
+    return below;
 }
 
 size_t app_texts(struct app *app, struct render_text texts[WINDOW_TEXTS_MAX])
 {
     static char storage[WINDOW_TEXTS_MAX][TEXT_SIZE];
     struct page page = {texts, storage, 0};
-    const int columns = (app_text_width(app) - 3 * MARGIN) / LETTER_WIDTH;
-    int below = MARGIN, height, width;
     if (app_help_alone(app)) {
         texts[0] = help_at(MARGIN);
         return 1;
     }
     measure(app);
-    describe_state(app, room(&page), TEXT_SIZE);
-    wrap(room(&page), columns);
-    render_text_size(add(&page, MARGIN, below, 1, white, true), &width, &height);
-    below += height + MARGIN;
-    if (app->hints.message[0]) {
-        snprintf(room(&page), TEXT_SIZE, "%s", app->hints.message);
-        wrap(room(&page), columns);
-        render_text_size(add(&page, MARGIN, below, 1, warm, true), &width, &height);
-        below += height + MARGIN;
-    }
-    if (app->panel) {
+    const int below = add_lines(app, &page);
+    if (app_has_sliders(app))
         add_sliders(app, &page);
-        if (app_has_plot(app))
-            add_plot(app, &page);
-    }
-    if (app->stretch_colours)
+    if (app_has_plot(app))
+        add_plot(app, &page);
+    if (app_has_legend(app))
         add_legend(app, &page);
     if (app->hints.help)
         texts[page.count++] = help_at(below > 9 * MARGIN ? below : 9 * MARGIN);
-    else
-        add_news(app, &page, below);
     return page.count;
 }

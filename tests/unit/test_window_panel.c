@@ -172,11 +172,42 @@ static void at_rest_there_is_no_energy(void **state)
     }
 }
 
+/* In the smallest pictures in place of what is told of the state, and so is what a key did. */
+static void news_have_room_in_small_pictures(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{320, 140}, {200, 120}, {480, 70}, {160, 150}};
+    struct balloon b;
+    struct error err = {0};
+    struct app app = {.panel = true};
+    struct render_text text;
+    int width, height;
+    open_balloon(&b, 2, SETTINGS("time.integrator=symplectic-euler"));
+    assert_ok(live_open(&app.live, &b.sim, 64 << 20, &err), &err);
+    app_hear(&app, 0, "at 1.25 s: balloons[0]: fracture: the skin tears");
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        eye = (struct panel_box){0, 0, sizes[i][0], sizes[i][1]};
+        hints_say(&app.hints, "");
+        assert_int_equal(count_texts(&app, "tears", &text), 1);
+        render_text_size(&text, &width, &height);
+        assert_true(text.x + width <= eye.width && text.y + height <= eye.height);
+        assert_int_equal(count_texts(&app, "0.000 s", &text), 1);
+        hints_say(&app.hints, "dog-1.png saved");
+        assert_int_equal(count_texts(&app, "saved", &text), 1);
+        render_text_size(&text, &width, &height);
+        assert_true(text.x + width <= eye.width && text.y + height <= eye.height);
+    }
+    live_close(&app.live);
+    close_balloon(&b);
+}
+
 static void nothing_covers_anything_in_any_layout(void **state)
 {
     (void)state;
     static const int sizes[][2] = {{1280, 480}, {640, 480}, {480, 420}, {500, 500}, {1000, 250},
-                                   {960, 210},  {420, 300}, {320, 240}, {800, 600}, {400, 700}};
+                                   {960, 210},  {420, 300}, {320, 240}, {800, 600}, {400, 700},
+                                   {200, 150},  {100, 150}, {160, 100}, {320, 140}, {400, 120},
+                                   {1500, 200}, {3000, 90}, {200, 300}, {100, 600}, {120, 90}};
     struct balloon b;
     struct error err = {0};
     struct app app = {0};
@@ -242,6 +273,7 @@ int main(void)
                                        cmocka_unit_test(messages_go_by_and_complaints_stay),
                                        cmocka_unit_test(at_rest_there_is_no_energy),
                                        cmocka_unit_test(sliders_end_within_an_eyes_picture),
+                                       cmocka_unit_test(news_have_room_in_small_pictures),
                                        cmocka_unit_test(nothing_covers_anything_in_any_layout)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
