@@ -37,12 +37,11 @@ static enum status check_viscosity(const struct scene *scene, size_t number, str
                                scene->time.step);
 }
 
-/* Methods that go by what hangs together at the start: their solvers' and
- * constraints' tables are made once. */
+/* Methods that go by what hangs together at the start: CVODE's vectors and xpbd's
+ * constraints are made once. */
 enum status scene_check_fracture(const struct scene *scene, size_t number, struct error *err)
 {
-    static const char *const fixed[] = {"backward-euler", "implicit-midpoint", "bdf2",
-                                        "xpbd",           "cvode-bdf",         "cvode-adams"};
+    static const char *const fixed[] = {"xpbd", "cvode-bdf", "cvode-adams"};
     const struct scene_balloon *b = &scene->balloons[number];
     if (!b->fracture.on || b->fracture.mode != SCENE_FRACTURE_TEAR)
         return STATUS_OK;
@@ -50,8 +49,8 @@ enum status scene_check_fracture(const struct scene *scene, size_t number, struc
         if (!strcmp(scene_integrator_names[scene->time.integrator], fixed[i]))
             return scene_contradiction(
                 scene, number, "fracture", b->fracture.line, err,
-                "time.integrator \"%s\" cannot follow a skin that tears; take an explicit "
-                "one, as \"symplectic-euler\" or \"verlet\", or mode = \"paper\"",
+                "time.integrator \"%s\" cannot follow a skin that tears; take another, as "
+                "\"symplectic-euler\" or \"bdf2\", or mode = \"paper\"",
                 fixed[i]);
     if (b->viscosity.on || b->plasticity.on)
         return scene_contradiction(

@@ -10,34 +10,49 @@
 
 enum { RESIDUAL, SHADOW, DIRECTION, MAPPED_DIRECTION, MAPPED_RESIDUAL, SCRATCH };
 
-/* The first edge of each group: edges are in the order of their lower points. */
-static void find_groups(const struct sim *sim, struct solver *solver)
+static uint32_t lower_end(const struct sim *sim, uint32_t edge)
 {
-    uint32_t e = 0;
-    for (size_t g = 0; g < solver->group_count; g++) {
-        while (e < sim->edge_count && sim->edge_point[e][0] < g * SOLVER_GROUP)
-            e++;
-        solver->group_edge[g] = e;
-    }
+    const uint32_t *p = sim->edge_point[edge];
+    return p[0] < p[1] ? p[0] : p[1];
+}
+
+/* A counting sort. Edges are made in this order, but cuts give them new points. */
+static void find_links(const struct sim *sim, const struct solver *solver)
+{
+    uint32_t *first = solver->first_link, sum = 0;
+    memset(first, 0, (sim->point_count + (size_t)1) * sizeof *first);
+    for (size_t i = 0; i < sim->balloon_count; i++)
+        for (uint32_t e = sim->balloons[i].edge_begin; e < sim->balloons[i].edge_end; e++)
+            first[lower_end(sim, e)]++;
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        first[p] = sum += first[p];
+    first[sim->point_count] = sum;
+    for (size_t i = sim->balloon_count; i-- > 0;)
+        for (uint32_t e = sim->balloons[i].edge_end; e-- > sim->balloons[i].edge_begin;) {
+            const uint32_t lower = lower_end(sim, e), *p = sim->edge_point[e];
+            solver->link[--first[lower]] = (struct solver_link){e, p[0] == lower ? p[1] : p[0]};
+        }
 }
 
 enum status solver_open(struct sim *sim, struct solver *solver, struct error *err)
 {
     solver->group_count = sim->point_count / SOLVER_GROUP + 1;
-    solver->group_edge = sim_table(sim, solver->group_count, sizeof *solver->group_edge);
+    solver->link = sim_table(sim, sim->edge_count, sizeof *solver->link);
+    solver->first_link = sim_table(sim, sim->point_count + (size_t)1, sizeof *solver->first_link);
     solver->inverse = sim_table(sim, sim->point_count, sizeof *solver->inverse);
-    bool room = solver->group_edge && solver->inverse;
+    bool room = solver->link && solver->first_link && solver->inverse;
     for (int i = 0; i < SOLVER_ROWS; i++)
         room &= (solver->rows[i] = sim_table(sim, sim->point_count, sizeof *solver->rows[i])) != NULL;
     if (!room)
         return error_no_memory(err, "the linear solver");
-    find_groups(sim, solver);
+    find_links(sim, solver);
     return STATUS_OK;
 }
 
 void solver_close(struct solver *solver)
 {
-    free(solver->group_edge);
+    free(solver->link);
+    free(solver->first_link);
     free(solver->inverse);
     for (int i = 0; i < SOLVER_ROWS; i++)
         free(solver->rows[i]);
@@ -111,23 +126,32 @@ static void factor_group(void *context, size_t group, unsigned worker)
     (void)worker;
     const struct group_job *job = context;
     const struct sim *sim = job->sim;
-    double(*block)[3][4] = job->solver->inverse;
+    const struct solver *s = job->solver;
+    double(*block)[3][4] = s->inverse;
     const uint32_t end = group_end(sim, group);
-    uint32_t e = job->solver->group_edge[group];
     for (uint32_t p = (uint32_t)group * SOLVER_GROUP; p < end; p++) {
         invert(block[p], sim->mass[p]);
-        for (; e < sim->edge_count && sim->edge_point[e][0] == p; e++) {
-            const uint32_t q = sim->edge_point[e][1];
-            if (q < end && sim->edge_active[e])
-                eliminate(job->solver, sim->jacobian->edge[e], (const double(*)[4])block[p], block[q]);
-        }
+        for (const struct solver_link *l = s->link + s->first_link[p]; l < s->link + s->first_link[p + 1];
+             l++)
+            if (l->upper < end && sim->edge_active[l->edge])
+                eliminate(s, sim->jacobian->edge[l->edge], (const double(*)[4])block[p], block[l->upper]);
     }
+}
+
+static bool tears(const struct sim *sim)
+{
+    bool tears = false;
+    for (size_t i = 0; i < sim->balloon_count; i++)
+        tears |= sim->balloons[i].topology != NULL;
+    return tears;
 }
 
 void solver_prepare(struct sim *sim, struct solver *solver, double a, double b)
 {
     solver->a = a;
     solver->b = b;
+    if (tears(sim))
+        find_links(sim, solver);
     sim_diagonal_blocks(sim, a, b, solver->inverse);
     threads_run(sim->pool, solver->group_count, factor_group, &(struct group_job){sim, solver, NULL, NULL});
 }
@@ -138,24 +162,27 @@ static void precondition_group(void *context, size_t group, unsigned worker)
     (void)worker;
     const struct group_job *job = context;
     const struct sim *sim = job->sim;
-    const double(*inverse)[3][4] = (const double(*)[3][4])job->solver->inverse;
+    const struct solver *s = job->solver;
+    const struct solver_link *link = s->link;
+    const double(*inverse)[3][4] = (const double(*)[3][4])s->inverse,
+          (*edge)[8] = (const double(*)[8])sim->jacobian->edge;
     double(*y)[4] = job->y;
-    const uint32_t begin = (uint32_t)group * SOLVER_GROUP, end = group_end(sim, group);
-    uint32_t e = job->solver->group_edge[group];
+    const uint32_t begin = (uint32_t)group * SOLVER_GROUP, end = group_end(sim, group),
+                   *first = s->first_link;
     for (uint32_t p = begin; p < end; p++)
         memcpy(y[p], job->x[p], sizeof y[p]);
     for (uint32_t p = begin; p < end; p++) {
         const double sum[4] = {y[p][0], y[p][1], y[p][2]};
         multiply(inverse[p], sum, y[p]);
-        for (; e < sim->edge_count && sim->edge_point[e][0] == p; e++)
-            if (sim->edge_point[e][1] < end)
-                add_coupling(job->solver, sim->jacobian->edge[e], y[p], y[sim->edge_point[e][1]]);
+        for (uint32_t i = first[p]; i < first[p + 1]; i++)
+            if (link[i].upper < end)
+                add_coupling(s, edge[link[i].edge], y[p], y[link[i].upper]);
     }
     for (uint32_t p = end; p-- > begin;) {
         double sum[4] = {0}, change[4];
-        while (e > 0 && sim->edge_point[e - 1][0] == p)
-            if (sim->edge_point[--e][1] < end)
-                add_coupling(job->solver, sim->jacobian->edge[e], y[sim->edge_point[e][1]], sum);
+        for (uint32_t i = first[p + 1]; i-- > first[p];)
+            if (link[i].upper < end)
+                add_coupling(s, edge[link[i].edge], y[link[i].upper], sum);
         multiply(inverse[p], sum, change);
         for (int i = 0; i < 3; i++)
             y[p][i] += change[i];

@@ -25,9 +25,15 @@
 
 enum { SOLVER_ROWS = 6, SOLVER_ITERATIONS_MAX = 400, SOLVER_GROUP = 32768 };
 
+/* An edge, at its lower point. */
+struct solver_link {
+    uint32_t edge, upper;
+};
+
 struct solver {
-    double (*inverse)[3][4]; /* [point_count] of the blocks of D */
-    uint32_t *group_edge;    /* [group_count] the first edge of each */
+    double (*inverse)[3][4];  /* [point_count] of the blocks of D */
+    struct solver_link *link; /* [edge_count] in the order of their lower points; owned */
+    uint32_t *first_link;     /* [point_count + 1] of each point; owned */
     size_t group_count;
     double (*rows[SOLVER_ROWS])[4]; /* [point_count] */
     double a, b;

@@ -130,7 +130,8 @@ static void every_method_goes_on_as_it_would_have(void **unused)
 {
     (void)unused;
     static const char *const methods[] = {
-        "symplectic-euler", "explicit-euler", "verlet", "rk4", "rkn4", "rk-adaptive", "auto"};
+        "symplectic-euler", "explicit-euler",    "verlet", "rk4", "rkn4", "rk-adaptive", "auto",
+        "backward-euler",   "implicit-midpoint", "bdf2"};
     for (size_t m = 0; m < sizeof methods / sizeof methods[0]; m++) {
         struct inflated it, other;
         char method[64];

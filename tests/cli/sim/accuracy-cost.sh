@@ -34,10 +34,11 @@ grep -q '^xpbd' skin.tsv && fail "a row of xpbd on a membrane"
 # a skin that tears is nothing for methods that go by what hangs together at the start, which a run refuses
 tears='--set time.end=0.1 --set balloons[0].membrane.thickness=0.5 --set balloons[0].fracture.mode="tear"'
 expect 0 balloon-sim cube.ply $calm $tears --accuracy-cost tears.tsv
-for method in backward-euler implicit-midpoint bdf2 cvode-adams cvode-bdf; do
+for method in cvode-adams cvode-bdf; do
     stdout_has "^# failed: $method at .*: cannot follow a skin that tears$"
     grep -q "^$method" tears.tsv && fail "a row of $method on a skin that tears"
 done
+grep -q '^bdf2' tears.tsv || fail "no row of bdf2, which can follow it"
 stdout_has '^# references: rk-adaptive at '
 
 # the setting is what --set takes
