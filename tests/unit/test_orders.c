@@ -75,7 +75,7 @@ static void the_adaptive_methods_error_is_proportional_to_their_tolerance(void *
             b.sim.whole_step = b.sim.step = 1; /* no limit but its own */
             run_to_end(&b);
             const double error = difference(&b, &reference);
-            print_message("%s, %s: error %.2g in %d steps, %d forces\n", integrators[k]->name, tolerance,
+            print_message("# %s, %s: error %.2g in %d steps, %d forces\n", integrators[k]->name, tolerance,
                           error, (int)b.sim.steps, (int)b.sim.evaluations);
             assert_true(error < 10 * pow(10, -i));
             assert_true(i == 4 || (last / error > 2.5 && last / error < 40));
