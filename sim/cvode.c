@@ -5,9 +5,10 @@
  * preconditioned by points.
  *
  * The vector is all positions, all velocities, then the scalars of the state. Its norm is that of weights.h,
- * so the tolerance means what it means to rk-adaptive; scalars count by their own size at the start, and
- * each of a body's as all points together. Scalars that only record are integrated afterwards by Gauss's rule
- * over the interpolant, three forces a step, so that the run does not notice them.
+ * so the tolerance means what it means to rk-adaptive; scalars count by their own size at the start (not at
+ * all what begins at nothing, as the record of what a pump brings does), and each of a body's as all points
+ * together. Scalars that only record are integrated afterwards by Gauss's rule over the interpolant, three
+ * forces a step, so that the run does not notice them.
  *
  * What the library remembers cannot be saved. So a run of it starts anew at every event, and after RUN_STEPS
  * steps; the blocks hold the state at its start, and a state that was restored is reached again by repeating
@@ -21,6 +22,7 @@
 #include "sim/weights.h"
 
 #include <cvode/cvode.h>
+#include <float.h>
 #include <math.h>
 #include <nvector/nvector_serial.h>
 #include <stdlib.h>
@@ -106,7 +108,7 @@ static int weights(N_Vector y, N_Vector weight, void *context)
         const double body = weights_of_body(sim, i), size = fabs(sim->scalar_scratch[START_POSITION][i]);
         scalars(sim, weight)[i] = body > 0   ? sqrt(length) / (tolerance * body)
                                   : size > 0 ? 1 / (tolerance * size)
-                                             : 1;
+                                             : DBL_MIN;
     }
     return 0;
 }
