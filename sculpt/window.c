@@ -143,9 +143,11 @@ static void tell_forgotten(struct app *app)
     app_say(app, text);
 }
 
-static void end_drag(struct app *app)
+void app_end_drag(struct app *app)
 {
     struct error err = {0};
+    if (app->drag == DRAG_NOTHING)
+        return;
     if (app->drag == DRAG_TOOL && app->session.dragging) {
         app_say_unless_ok(app, session_release(&app->session, &err), &err);
         if (app->session.unsaved && !app->session.saving)
@@ -168,7 +170,7 @@ static void pressed(void *self, enum window_button button, bool down, int x, int
     if (down && app->drag == DRAG_NOTHING)
         begin_drag(app, button, modifiers);
     else if (!down)
-        end_drag(app);
+        app_end_drag(app);
     window_redraw(app->window);
 }
 
@@ -206,6 +208,7 @@ void app_quit(struct app *app)
 static bool wants_to_close(void *self)
 {
     struct app *app = self;
+    app_end_drag(app);
     if (!app->open || (!app->session.unsaved && !app->session.saving))
         return true;
     app_leave(app, NEXT_QUIT);

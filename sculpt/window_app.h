@@ -113,7 +113,10 @@ void app_take_name(struct app *app);
 /* Goes on with the model that was imported. */
 void app_take_model(struct app *app, bool fill);
 
-/* window.c: closes the window, when nothing is being written any more. */
+/* window.c: what the hand does ends where it is, whether its button is still down or not. */
+void app_end_drag(struct app *app);
+
+/* Closes the window, when nothing is being written any more. */
 void app_quit(struct app *app);
 
 /* The timer comes when there is something to be done by then. */

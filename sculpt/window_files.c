@@ -228,6 +228,7 @@ void app_do_next(struct app *app)
 void app_leave(struct app *app, enum next next)
 {
     app->next = next;
+    app_end_drag(app);
     if (app->open && app->session.saving)
         app->next_when_saved = true;
     else if (app->open && app->session.unsaved)

@@ -88,7 +88,16 @@ cp "$journal" replay.chips
 balloon-sculpt -q --script replay.chips --depth 5 -o replay.oct
 same_cells a.oct replay.oct
 
-# unsaved work is asked for
+# unsaved work is asked for, a stroke that is not at its end too
+press 1 d
+pull 1 300 300 340 330
+"$ASK_TO_CLOSE" "$window"
+settle
+kill -0 "$program" 2>/dev/null || fail "the window closed in the midst of a stroke"
+release 1
+wait_title 'a.oct *'
+press Escape ctrl+z ctrl+s
+wait_title a.oct
 press 1 s
 click 300 300
 "$ASK_TO_CLOSE" "$window"
