@@ -1,6 +1,7 @@
-/* The letters of ASCII, five dots wide, seven high above the line and two below it. */
+/* The letters of ASCII, five dots wide, seven high above the line and two below it, and accents on them. */
 #include "render/font.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 /* clang-format off */
@@ -103,25 +104,109 @@ static const char *const letters[][FONT_HEIGHT] = {
 };
 /* clang-format on */
 
-uint64_t font_dots(char letter)
+/* Of U+00C0 to U+00FF the letter without its accent, and the accent; of U+0100 to U+017F the letter alone. */
+static const char latin[] = "AAAAAAACEEEEIIIIDNOOOOOxOUUUUYPsaaaaaaaceeeeiiiidnooooo/ouuuuypy";
+static const char accents[] = "`'^~:o ,`'^:`'^: ~`'^~: /`'^:'  `'^~:o ,`'^:`'^: ~`'^~: /`'^:' :";
+static const char extended[] =
+    "AaAaAaCcCcCcCcDdDdEeEeEeEeEeGgGgGgGgHhHhIiIiIiIiIiIiJjKkkLlLlLlLlLlNnNnNnnNnOoOoOoOo"
+    "RrRrRrSsSsSsSsTtTtTtUuUuUuUuUuUuWwYyYZzZzZzs";
+
+static const struct {
+    char accent;
+    const char *row[FONT_HEIGHT];
+} marks[] = {
+    {'`', {" #   ", "  #  ", "", "", "", "", "", "", ""}},
+    {'\'', {"   # ", "  #  ", "", "", "", "", "", "", ""}},
+    {'^', {"  #  ", " # # ", "", "", "", "", "", "", ""}},
+    {'~', {" ## #", "# ## ", "", "", "", "", "", "", ""}},
+    {':', {" # # ", "", "", "", "", "", "", "", ""}},
+    {'o', {"  #  ", "  #  ", "", "", "", "", "", "", ""}},
+    {',', {"", "", "", "", "", "", "", "  #  ", " #   "}},
+    {'/', {"", "", "    #", "", "  #  ", "", "#    ", "", ""}},
+};
+
+static uint64_t dots_of(const char *const rows[FONT_HEIGHT])
 {
     uint64_t dots = 0;
-    int number = letter - ' ';
-    if (number < 0 || number >= (int)(sizeof letters / sizeof *letters))
-        return ((uint64_t)1 << FONT_WIDTH * FONT_LINE) - 1;
     for (int row = 0; row < FONT_HEIGHT; row++)
-        for (int column = 0; column < FONT_WIDTH; column++)
-            if (letters[number][row][column] == '#')
+        for (int column = 0; rows[row][column]; column++)
+            if (rows[row][column] == '#')
                 dots |= (uint64_t)1 << (FONT_WIDTH * row + column);
     return dots;
+}
+
+/* A small letter with its accent, which takes the place of the dot on an i. */
+static uint64_t accented(char letter, char accent)
+{
+    uint64_t dots = dots_of(letters[letter - ' ']);
+    for (size_t i = 0; i < sizeof marks / sizeof *marks && letter >= 'a'; i++)
+        if (marks[i].accent == accent)
+            dots = (letter == 'i' ? dots >> 2 * FONT_WIDTH << 2 * FONT_WIDTH : dots) | dots_of(marks[i].row);
+    return dots;
+}
+
+/* The character at the front of the text (RFC 3629), of which a byte that begins none is one. */
+static uint32_t take_character(const char **text)
+{
+    const unsigned char *at = (const unsigned char *)*text;
+    const int more = *at >= 0xF0 && *at < 0xF8   ? 3
+                     : *at >= 0xE0 && *at < 0xF0 ? 2
+                     : *at >= 0xC0 && *at < 0xE0 ? 1
+                                                 : 0;
+    uint32_t character = *at & (more ? 0x3Fu >> more : 0xFFu);
+    const uint32_t no_character = 0xFFFD;
+    for (int i = 1; i <= more; i++) {
+        if ((at[i] & 0xC0) != 0x80) {
+            *text += 1;
+            return no_character;
+        }
+        character = character << 6 | (at[i] & 0x3Fu);
+    }
+    *text += 1 + more;
+    return *at >= 0x80 && !more ? no_character : character;
+}
+
+static bool is_mark(uint32_t character)
+{
+    return character >= 0x300 && character < 0x370;
+}
+
+/* Goes behind marks that stand on what was before them. */
+static void pass_marks(const char **text)
+{
+    for (const char *next = *text; *next && is_mark(take_character(&next));)
+        *text = next;
+}
+
+uint64_t font_next(const char **text)
+{
+    const uint32_t character = take_character(text);
+    pass_marks(text);
+    if (character >= ' ' && character < 127)
+        return dots_of(letters[character - ' ']);
+    if (character >= 0xC0 && character < 0x100)
+        return accented(latin[character - 0xC0], accents[character - 0xC0]);
+    if (character >= 0x100 && character < 0x180)
+        return dots_of(letters[extended[character - 0x100] - ' ']);
+    return ((uint64_t)1 << FONT_WIDTH * FONT_LINE) - 1;
+}
+
+size_t font_letters(const char *text)
+{
+    size_t count = 0;
+    for (; *text && *text != '\n'; count++) {
+        take_character(&text);
+        pass_marks(&text);
+    }
+    return count;
 }
 
 void font_size(const char *text, int scale, int *width, int *height)
 {
     size_t columns = 0, lines = 1;
     for (const char *line = text; *line; lines++) {
-        size_t length = strcspn(line, "\n");
-        columns = length > columns ? length : columns;
+        const size_t length = strcspn(line, "\n"), count = font_letters(line);
+        columns = count > columns ? count : columns;
         if (!line[length])
             break;
         line += length + 1;

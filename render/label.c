@@ -13,8 +13,8 @@ static void fill(struct image *image, int x, int y, int side)
 
 void label_draw(struct image *image, int x, int y, int scale, const char *text)
 {
-    for (; *text; text++, x += (FONT_WIDTH + 1) * scale) {
-        uint64_t dots = font_dots(*text);
+    for (; *text; x += (FONT_WIDTH + 1) * scale) {
+        const uint64_t dots = font_next(&text);
         for (int i = 0; i < FONT_WIDTH * FONT_HEIGHT; i++)
             if (dots >> i & 1)
                 fill(image, x + i % FONT_WIDTH * scale, y + i / FONT_WIDTH * scale, scale);

@@ -168,15 +168,17 @@ static enum status add_text(struct overlay *overlay, const struct render_text *t
     if (text->boxed)
         add_rectangle(overlay, box, 1, 0, 0, box_colour);
     int x = text->x + margin, y = text->y + margin;
-    for (const char *at = text->text; *at; at++) {
+    for (const char *at = text->text; *at;) {
         const int place[4] = {x, y, FONT_WIDTH * scale, FONT_HEIGHT * scale};
         if (*at == '\n') {
             x = text->x + margin;
             y += FONT_STEP * scale;
+            at++;
             continue;
         }
-        if (*at != ' ')
-            add_rectangle(overlay, place, font_dots(*at), FONT_WIDTH, FONT_HEIGHT, colour);
+        const uint64_t dots = font_next(&at);
+        if (dots)
+            add_rectangle(overlay, place, dots, FONT_WIDTH, FONT_HEIGHT, colour);
         x += (FONT_WIDTH + 1) * scale;
     }
     return STATUS_OK;

@@ -50,10 +50,36 @@ static void answer_hollow(struct app *app, int key, int modifiers)
     octree_clear(&app->model);
 }
 
+/* Keys are those of Latin 1, and names UTF-8. */
+static bool is_letter(int key, int modifiers)
+{
+    return !(modifiers & WINDOW_CTRL) && ((key >= ' ' && key < 127) || (key >= 0xA0 && key < 0x100));
+}
+
+static void append_letter(char *text, size_t size, int key)
+{
+    const size_t length = strlen(text), more = key < 128 ? 1 : 2;
+    if (length + more >= size)
+        return;
+    if (more == 2)
+        text[length] = (char)(0xC0 | key >> 6);
+    text[length + more - 1] = (char)(more == 2 ? 0x80 | (key & 0x3F) : key);
+    text[length + more] = '\0';
+}
+
+/* With all bytes of a letter that has several. */
+static void remove_letter(char *text)
+{
+    size_t length = strlen(text);
+    while (length > 0 && ((unsigned char)text[--length] & 0xC0) == 0x80)
+        ;
+    text[length] = '\0';
+}
+
 /* A letter takes the place of a name that was proposed; backspace takes that name up. */
 static void answer_name(struct app *app, int key, int modifiers)
 {
-    const bool letter = !(modifiers & WINDOW_CTRL) && key >= ' ' && key < 127;
+    const bool letter = is_letter(key, modifiers);
     if (app->proposed && letter)
         app->answer[0] = '\0';
     app->proposed = app->proposed && !letter && key != WINDOW_BACKSPACE;
@@ -63,11 +89,10 @@ static void answer_name(struct app *app, int key, int modifiers)
     } else if (key == WINDOW_ENTER && length > 0) {
         app_take_name(app);
     } else if (key == WINDOW_BACKSPACE && length > 0) {
-        app->answer[length - 1] = '\0';
+        remove_letter(app->answer);
         app->sure = false;
-    } else if (letter && length + 1 < sizeof app->answer) {
-        app->answer[length] = (char)key;
-        app->answer[length + 1] = '\0';
+    } else if (letter) {
+        append_letter(app->answer, sizeof app->answer, key);
         app->sure = false;
     }
 }

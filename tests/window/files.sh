@@ -113,6 +113,13 @@ picture proposed
 type_name typed.vox # in place of the name that is proposed
 until_true "no typed.vox" [ -s typed.vox ]
 settle
+press ctrl+e
+press adiaeresis
+press eacute
+press BackSpace # a letter of two bytes
+type_name .vox
+until_true "no file with an umlaut in its name" [ -s "$(printf '\303\244').vox" ]
+settle
 cmp -s typed.vox want.vox || fail "typed.vox is another export"
 press ctrl+shift+s
 press BackSpace BackSpace BackSpace BackSpace BackSpace
