@@ -116,11 +116,18 @@ static double order_between(const struct accuracy_row *coarse, const struct accu
     return steps >= 1.1 ? log(coarse->error / fine->error) / log(steps) : (double)NAN;
 }
 
+/* auto: whether it took the same method, in whatever many substeps. */
+static bool choose_alike(const struct accuracy_row *a, const struct accuracy_row *b)
+{
+    const size_t name = strcspn(a->chose, ",");
+    return name == strcspn(b->chose, ",") && !strncmp(a->chose, b->chose, name);
+}
+
 static void add_row(struct accuracy_plan *plan, struct ladder *ladder, struct accuracy_row *row)
 {
     struct accuracy_table *table = plan->table;
     row->order = NAN;
-    if (table->count > ladder->first)
+    if (table->count > ladder->first && choose_alike(row - 1, row))
         row->order = order_between(row - 1, row);
     table->count++;
 }

@@ -91,6 +91,8 @@ void accuracy_set_span(struct accuracy_plan *plan)
     table->longest_step = plan->quarter ? plan->quarter * step : plan->reach / ACCURACY_TIMES;
     plan->step = table->step = plan->quarter ? step : table->longest_step;
     table->span = ACCURACY_TIMES * table->longest_step;
+    if (table->span < plan->reach * (1 - 1e-9) && !strcmp(table->span_reason, "the end"))
+        snprintf(table->span_reason, sizeof table->span_reason, "in whole steps, before the end");
     for (int i = 0; i < ACCURACY_TIMES; i++)
         plan->subject.time[i] = (i + 1) * table->longest_step;
 }

@@ -87,6 +87,29 @@ static void references_agree_ten_times_better_than_the_best_row(void **state)
     assert_true(isinf(accuracy_fastest(&table, 1e-15, &fastest)));
 }
 
+/* From Euler's method at one tolerance to Verlet's at the next the error falls by no order: 10.8 was one.
+ * And a span of whole steps, which four times eight do not fill, says that it ends before the end. */
+static void auto_has_no_order_where_it_takes_another_method(void **state)
+{
+    (void)state;
+    static struct accuracy_table table;
+    struct error err = {0};
+    assert_ok(measure(SETTINGS("balloons[0].pressure=4", "balloons[0].threshold=50", "time.step=0.025",
+                               "time.end=1"),
+                      &(struct accuracy_options){.seconds = 2 * slowdown()}, &table, &err),
+              &err);
+    size_t first = 0, others = 0;
+    const size_t count = rows_of(&table, integrator_find("auto"), &first);
+    for (const struct accuracy_row *row = &table.rows[first] + 1; row < &table.rows[first] + count; row++)
+        if (strncmp(row->chose, row[-1].chose, strcspn(row->chose, ",") + 1) != 0) {
+            assert_true(isnan(row->order));
+            others++;
+        }
+    assert_true(others > 0);
+    assert_near(table.span, 0.8, 1e-12);
+    assert_string_equal(table.span_reason, "in whole steps, before the end");
+}
+
 static void the_span_ends_before_the_first_break_and_ensembles_go_past_it(void **state)
 {
     (void)state;
@@ -178,6 +201,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_method_is_there_and_errors_fall_with_its_order),
         cmocka_unit_test(references_agree_ten_times_better_than_the_best_row),
+        cmocka_unit_test(auto_has_no_order_where_it_takes_another_method),
         cmocka_unit_test(the_span_ends_before_the_first_break_and_ensembles_go_past_it),
         cmocka_unit_test(references_agree_on_gas_as_well),
         cmocka_unit_test(it_ends_when_somebody_wants_it_to),
