@@ -226,6 +226,17 @@ enum status session_drag(struct session *session, struct error *err)
     return use_tool(session, err);
 }
 
+const char *session_why_no_drag(const struct session *session)
+{
+    if (!session->dragging || session->tool > TOOL_CYLINDER)
+        return NULL;
+    double from_eye[3], beside[3];
+    for (int i = 0; i < 3; i++)
+        from_eye[i] = session->last[i] - session->ray.origin[i];
+    vec3_cross(from_eye, session->ray.direction, beside);
+    return vec3_length(beside) > session->radius ? "This tool works once a press; d draws strokes." : NULL;
+}
+
 enum status session_release(struct session *session, struct error *err)
 {
     if (!session->dragging)

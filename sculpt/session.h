@@ -111,6 +111,9 @@ enum status session_release(struct session *session, struct error *err);
 /* Why a press would begin nothing where the pointer is, in words for whoever presses; NULL: it would. */
 const char *session_why_nothing(const struct session *session);
 
+/* Likewise why a drag does no more than its press did, once it has led away from there; NULL: it does. */
+const char *session_why_no_drag(const struct session *session);
+
 /* False where there is nothing to undo or redo. */
 bool session_undo(struct session *session, struct error *err);
 bool session_redo(struct session *session, struct error *err);

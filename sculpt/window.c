@@ -98,8 +98,12 @@ static void moved(void *self, int x, int y, int modifiers)
         orbit_pan(&app->orbit, &app->view, dx, dy);
     orbit_camera(&app->orbit, &app->view.camera);
     app_aim(app);
-    if (app->drag == DRAG_TOOL)
+    if (app->drag == DRAG_TOOL) {
+        const char *nothing = session_why_no_drag(&app->session);
+        if (nothing)
+            app_say(app, nothing);
         app_say_unless_ok(app, session_drag(&app->session, &err), &err);
+    }
     window_redraw(app->window);
 }
 

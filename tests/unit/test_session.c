@@ -347,6 +347,26 @@ static void a_press_that_begins_nothing_says_why(void **state)
     session_clear(&session);
 }
 
+static void a_drag_that_does_nothing_is_told(void **state)
+{
+    (void)state;
+    open_new(4);
+    session.radius = 0.1;
+    for (int tool = 0; tool < TOOLS; tool++) {
+        const bool once = tool == TOOL_SPHERE || tool == TOOL_BOX || tool == TOOL_CYLINDER;
+        session.tool = (enum session_tool)tool;
+        aim(0.3, 0.5);
+        assert_ok(session_press(&session, &err), &err);
+        aim(0.38, 0.5); /* a hand that trembles */
+        assert_null(session_why_no_drag(&session));
+        aim(0.6, 0.5);
+        assert_int_equal(session_why_no_drag(&session) != NULL, once);
+        assert_ok(session_release(&session, &err), &err);
+        assert_null(session_why_no_drag(&session));
+    }
+    session_clear(&session);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -363,6 +383,7 @@ int main(void)
         cmocka_unit_test(what_the_journal_cannot_keep_is_taken_back),
         cmocka_unit_test(two_hands_cannot_carve_one_sculpture),
         cmocka_unit_test(bricks_have_all_faces_and_change_only_where_a_chip_fell),
+        cmocka_unit_test(a_drag_that_does_nothing_is_told),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
