@@ -18,6 +18,14 @@ bool plot_is_file_name(const char *path)
     return file_has_extension(path, "png") || file_has_extension(path, "svg");
 }
 
+char *plot_table_name(const char *path)
+{
+    char *name = strdup(path);
+    if (name && plot_is_file_name(path))
+        memcpy(name + strlen(name) - 3, "tsv", 3);
+    return name;
+}
+
 enum status plot_check(const char *path, struct error *err)
 {
     if (!plot_is_file_name(path))

@@ -63,6 +63,10 @@ struct plot {
 /* True when the name ends in .png or .svg, upper or lower case. */
 bool plot_is_file_name(const char *path);
 
+/* What the table beside a plot is called: as the plot, but for its extension .tsv, which the name of a table
+ * has, upper or lower case. `path` ends in one of the three; free() the result. NULL: no memory. */
+char *plot_table_name(const char *path);
+
 /* Whether plot_save() could begin. Errors: STATUS_USAGE for another extension; STATUS_RESOURCE where gnuplot
  * is not installed, with how to get it. */
 enum status plot_check(const char *path, struct error *err);

@@ -6,25 +6,11 @@
 
 #include <signal.h>
 #include <stdlib.h>
-#include <string.h>
-
-/* The table's name is path's, ending in .tsv; NULL: no memory. */
-static char *table_name(const char *path)
-{
-    char *name = strdup(path);
-    if (name)
-        memcpy(name + strlen(path) - 3, "tsv", 3);
-    return name;
-}
 
 static enum status probe(const char *path, const char *table_path, struct error *err)
 {
-    struct file_out *out = NULL;
     enum status status = plot_is_file_name(path) ? plot_check(path, err) : STATUS_OK;
-    if (!status)
-        status = file_out_open(table_path, &out, err);
-    file_out_abandon(out);
-    return status;
+    return status ? status : file_out_check(table_path, err);
 }
 
 static enum status save(const struct price_kind *kind, const void *table, const char *path, struct error *err)
@@ -66,7 +52,7 @@ enum status price_make(const struct price_kind *kind, const struct scene *scene,
                        const char *path, struct error *err)
 {
     void *table = calloc(1, kind->size);
-    char *table_path = table_name(path);
+    char *table_path = plot_table_name(path);
     enum status status = table && table_path ? probe(path, table_path, err)
                                              : error_no_memory(err, "the table");
     if (!status)

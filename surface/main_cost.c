@@ -5,7 +5,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static void print_advice(const struct cost_table *table, FILE *stream)
 {
@@ -146,18 +145,9 @@ static enum status draw(const struct cost_table *table, const char *sculpture, c
     return plot_save(&plot, path, err);
 }
 
-/* The table's name: beside a picture it has the picture's. NULL: no memory. */
-static char *table_name(const char *path)
-{
-    char *name = strdup(path);
-    if (name)
-        memcpy(name + strlen(name) - 3, "tsv", 3);
-    return name;
-}
-
 enum status cost_check(const char *path, struct error *err)
 {
-    char *name = table_name(path);
+    char *name = plot_table_name(path);
     if (!name)
         return error_no_memory(err, path);
     enum status status = file_out_check(name, err);
@@ -168,7 +158,7 @@ enum status cost_check(const char *path, struct error *err)
 enum status cost_save(const struct cost_table *table, const char *sculpture, const char *path,
                       struct error *err)
 {
-    char *name = table_name(path);
+    char *name = plot_table_name(path);
     if (!name)
         return error_no_memory(err, path);
     enum status status = save_table(table, name, err);

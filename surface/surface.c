@@ -48,10 +48,14 @@ static enum status check_memory(const struct making *making, double cube, struct
     double most = making->options->force ? numbers : fmin(numbers, memory);
     if (points <= most)
         return STATUS_OK;
+    if (making->options->cube_size <= 0 && making->options->triangles)
+        return error_set(err, STATUS_RANGE, "%u triangles are too many: about %.2g GB of memory; %.0f work",
+                         making->options->triangles, bytes / 1e9,
+                         floor(1.6 * most)); /* some more are tried on the way */
     return error_set(err, STATUS_RANGE,
                      "a cube size of %g is too small: about %.2g triangles in %.2g GB of memory; %.2g works",
                      cube / making->field.side, 2 * points, bytes / 1e9,
-                     cube / making->field.side * sqrt(points / most));
+                     1.05 * cube / making->field.side * sqrt(points / most)); /* and rounded */
 }
 
 static void add_stats(const struct mesher *m, struct surface_stats *stats)

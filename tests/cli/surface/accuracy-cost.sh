@@ -41,4 +41,6 @@ refused 1 'no/such/cost\.tsv: cannot create' balloon-surface cube.oct --accuracy
 refused 1 '/proc/cost\.tsv: cannot create' balloon-surface cube.oct --accuracy-cost /proc/cost.png
 only_files cube.oct cost.tsv
 
+expect 0 balloon-surface cube.oct --cube-size 0.3 --accuracy-cost UPPER.TSV
+same_file .stdout UPPER.TSV
 refused 2 'must end in \.tsv, \.png or \.svg' balloon-surface cube.oct --accuracy-cost cost.pdf
