@@ -142,8 +142,10 @@ double gas_energy_before(struct sim *sim, struct sim_balloon *b)
     const struct gas *gas = b->gas;
     if (gas->memory.gone || !gas->torn || !gas_torn_is_behind(sim, b))
         return gas_held_energy(sim, b);
-    return gas_energy(gas_amount(sim, gas), gas_torn_volume_before(sim, b),
-                      sim->scalar[gas->scalar + GAS_ENTROPY], gas->g, gas->scene->ambient);
+    const double before = gas_torn_volume_before(sim, b);
+    const double volume = before > GAS_LEAST_VOLUME * gas->rest_volume ? before : gas->volume;
+    return gas_energy(gas_amount(sim, gas), volume, sim->scalar[gas->scalar + GAS_ENTROPY], gas->g,
+                      gas->scene->ambient);
 }
 
 struct moving {
