@@ -1,6 +1,7 @@
 /*
  * STL (3D Systems, 1989): a soup of triangles, as text or in records of 50 bytes. Many binary files begin
- * with "solid" like the text ones; what tells them apart is their size, 84 + 50 x the count at byte 80.
+ * with "solid" like the text ones; what tells them apart is their size, 84 + 50 x the count at byte 80, or,
+ * where they are cut short, that they have bytes of 0.
  */
 #include "common/array.h"
 #include "common/mesh_files.h"
@@ -9,6 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum { HEAD_SIZE = 84, COUNT_AT = 80, FACET_SIZE = 50, CORNERS_AT = 12 };
 
@@ -52,13 +54,19 @@ static enum status read_binary(const struct bytes *bytes, const char *path, stru
     return STATUS_OK;
 }
 
+/* Some programs write the words in capitals. */
+static bool is_keyword(struct word word, const char *name)
+{
+    return word.length == strlen(name) && !strncasecmp(word.start, name, word.length);
+}
+
 static enum status want_word(struct text *text, const char *wanted, struct error *err)
 {
     struct word word;
     char shown[WORD_SHOWN_SIZE];
     if (!text_any_word(text, &word))
         return text_fail(text, err, "the file ends here; '%s' must follow", wanted);
-    if (!word_is(word, wanted))
+    if (!is_keyword(word, wanted))
         return text_fail(text, err, "'%s'; must be '%s'", word_show(word, shown), wanted);
     return STATUS_OK;
 }
@@ -118,9 +126,9 @@ static enum status read_text(struct text *text, struct soup *soup, struct error 
     enum status status = STATUS_OK;
     bool inside = false;
     while (!status && text_any_word(text, &word)) {
-        if (inside && word_is(word, "facet")) {
+        if (inside && is_keyword(word, "facet")) {
             status = want_facet(text, soup, err);
-        } else if (word_is(word, inside ? "endsolid" : "solid")) {
+        } else if (is_keyword(word, inside ? "endsolid" : "solid")) {
             inside = !inside;
             text_next_line(text);
         } else {
@@ -141,7 +149,8 @@ static enum status read_soup(const struct bytes *bytes, const char *path, struct
     struct word word;
     if (is_binary(bytes))
         return read_binary(bytes, path, soup, err);
-    if (text_any_word(&begin, &word) && word_is(word, "solid"))
+    bool is_text = bytes->size < HEAD_SIZE || !memchr(bytes->data, 0, bytes->size);
+    if (is_text && text_any_word(&begin, &word) && is_keyword(word, "solid"))
         return read_text(&text, soup, err);
     if (bytes->size < HEAD_SIZE)
         return error_set(err, STATUS_INPUT,

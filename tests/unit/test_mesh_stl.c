@@ -3,6 +3,8 @@
 #include "folder.h"
 #include "solids.h"
 
+#include <ctype.h>
+
 #define FACET(a, b, c) \
     "facet normal 0 0 1\n outer loop\n vertex " a "\n vertex " b "\n vertex " c "\n endloop\nendfacet\n"
 #define TWO_FACETS FACET("0 0 0", "1 0 0", "1 1 0") FACET("0 0 0", "1 1 0", "0 1 0")
@@ -42,6 +44,10 @@ static void text_is_read_whatever_its_spaces(void **state)
     assert_text_is_square("\n\n  solid\r\n" TWO_FACETS "endsolid");
     assert_text_is_square("solid one\n" FACET("0 0 0", "1 0 0", "1 1 0") "endsolid one\nsolid two\n" FACET(
         "-0e5\n0\n0", "1.0 +1 .0", "0 1 0") "endsolid two\n\n");
+    char loud[] = "solid x\n" TWO_FACETS "endsolid x\n";
+    for (char *letter = loud; *letter; letter++)
+        *letter = (char)toupper(*letter);
+    assert_text_is_square(loud);
 }
 
 /* Head, count and facets of a binary file; every facet's normal and attribute are rubbish. */
@@ -88,6 +94,11 @@ static void a_binary_file_that_is_wrong_is_refused(void **state)
     write_bytes("a.stl", bytes, size - 1);
     assert_refused(mesh_load("a.stl", &mesh, &err), STATUS_INPUT,
                    "a.stl: 2 triangles in a binary STL take 184 bytes; the file has 183", &err);
+    binary_square(bytes, "solid of another program\n");
+    write_bytes("a.stl", bytes, 183);
+    assert_refused(mesh_load("a.stl", &mesh, &err), STATUS_INPUT,
+                   "a.stl: 2 triangles in a binary STL take 184 bytes; the file has 183", &err);
+    binary_square(bytes, "binary");
     memset(bytes + 80, 0xff, 4);
     write_bytes("a.stl", bytes, size);
     assert_refused(mesh_load("a.stl", &mesh, &err), STATUS_INPUT,
