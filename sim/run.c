@@ -261,6 +261,9 @@ static void print_summary(struct run *run)
     printf("%g s in %" PRIu64 " steps: %u of %u edges and %u of %u triangles are left, in %u piece%s; ",
            sim->time, sim->steps, m.edges_active, edges, m.triangles_active, sim->triangle_count, m.pieces,
            m.pieces == 1 ? "" : "s");
+    const uint32_t lost = edges - m.edges_active;
+    if (sim->broken > lost) /* a tear leaves both sides their edges */
+        printf("%u edge%s torn in two; ", sim->broken - lost, sim->broken - lost == 1 ? " is" : "s are");
     if (run->first_break < 0)
         printf("nothing broke\n");
     else

@@ -21,6 +21,7 @@ sums_agree
 # torn instead: no mass is lost; a whole balloon is one piece, whose mass is that of its points
 tear='--set balloons[0].fracture.mode=tear --set balloons[0].rip.at=0'
 expect 0 balloon-sim sphere.cfg --set time.end=0.5 --set view.rate=2 $tear --pieces pieces.tsv --log log.tsv
+stdout_has ': [0-9]+ of [0-9]+ edges .* pieces?; [0-9]+ edges are torn in two; the first edge broke at'
 sums_agree
 cp pieces.tsv torn.tsv
 expect 0 balloon-sim sphere.cfg --set time.end=0.1 --set view.rate=10 --pieces pieces.tsv --log log.tsv
