@@ -174,6 +174,9 @@ static enum status begin(struct run *run, struct error *err)
     }
     if (!status)
         status = outputs_open(&run->outputs, options, run->sim, options->resume ? &run->past : NULL, err);
+    if (!status && options->sheet && run->sim->scene->view.stereo == SCENE_INTERLACED)
+        command_note("%s: rows for either eye run together in a sheet's small pictures: it is not in stereo",
+                     options->sheet);
     return status;
 }
 

@@ -22,6 +22,8 @@ refused 2 'turntable' balloon-sim m.ply --turntable=0 --frames film
 for eye in left right; do
     expect 0 balloon-sim m.ply $short --set view.stereo=$eye --frames $eye
 done
+expect 0 balloon-sim m.ply $short --set view.stereo=interlaced --contact-sheet rows.png
+stderr_has '^balloon-sim: rows.png: rows for either eye run together'
 expect 0 balloon-sim m.ply $short --set view.stereo=separate --frames both --contact-sheet both.png
 a_file both-left.png
 a_file both-right.png
