@@ -2,6 +2,7 @@
 #include "common/threads.h"
 #include "common/vec3.h"
 #include "sim/guard.h"
+#include "sim/jacobian_kernels.h"
 #include "sim/kernels.h"
 #include "sim/vectors.h"
 
@@ -120,58 +121,18 @@ struct areas_change areas_change(const struct sim *sim, const struct sim_balloon
     return sum;
 }
 
-struct product {
-    const struct sim_balloon *balloon;
-    const struct areas_pressure *pressure, *change;
-    const unsigned char *held;
-    double a;
-    double (*dx)[4], (*df)[4];
-};
-
-/* F = q N/6 with q = c + d . x: dF = (q dN + dq N)/6, and of twice an area s1 x s2,
- * dN = d1 x s2 + s1 x d2. */
-static void product_triangle(const struct sim *sim, const struct sim_part *part,
-                             const struct product *product, uint32_t t)
-{
-    double(*x)[4] = sim->position, (*dx)[4] = product->dx;
-    const double *d = product->pressure->gradient;
-    const uint32_t *p = sim->triangle_point[t];
-    if (!sim->triangle_active[t] || (product->held && !product->held[p[0] - part->balloon->point_begin]))
-        return;
-    double s1[3], s2[3], d1[3], d2[3], twice[3], turn1[3], turn2[3];
-    vec3_sub(x[p[1]], x[p[0]], s1);
-    vec3_sub(x[p[2]], x[p[0]], s2);
-    vec3_sub(dx[p[1]], dx[p[0]], d1);
-    vec3_sub(dx[p[2]], dx[p[0]], d2);
-    vec3_cross(s1, s2, twice);
-    vec3_cross(d1, s2, turn1);
-    vec3_cross(s1, d2, turn2);
-    for (int k = 0; k < 3; k++)
-        if (p[k] - part->point_begin < part->point_end - part->point_begin) {
-            const double q = product->pressure->constant + vec3_dot(d, x[p[k]]),
-                         dq = product->change->constant + vec3_dot(product->change->gradient, x[p[k]]) +
-                              vec3_dot(d, dx[p[k]]);
-            for (int i = 0; i < 3; i++)
-                product->df[p[k]][i] += product->a / 6 * (q * (turn1[i] + turn2[i]) + dq * twice[i]);
-        }
-}
-
 static void product_part(struct sim *sim, const struct sim_part *part, void *context)
 {
-    const struct product *product = context;
-    if (part->balloon != product->balloon)
-        return;
-    for (uint32_t i = 0; i < part->triangle_in_count; i++)
-        product_triangle(sim, part, product, part->triangle_in[i]);
-    for (uint32_t t = part->triangle_begin; t < part->triangle_end; t++)
-        product_triangle(sim, part, product, t);
+    const struct areas_product *product = context;
+    if (part->balloon == product->balloon)
+        sim->jacobian->kernels->areas(sim, part, product);
 }
 
 void areas_product(struct sim *sim, const struct sim_balloon *balloon, const struct areas_pressure *pressure,
                    const struct areas_pressure *change, const unsigned char *held, double a, double (*dx)[4],
                    double (*df)[4])
 {
-    sim_each_part(sim, product_part, &(struct product){balloon, pressure, change, held, a, dx, df});
+    sim_each_part(sim, product_part, &(struct areas_product){balloon, *pressure, *change, held, a, dx, df});
 }
 
 double areas_size(const struct sim *sim, uint32_t triangle)

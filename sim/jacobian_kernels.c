@@ -3,25 +3,7 @@
  * the name of the table at the end. All give the same bits, as forces.c does.
  */
 #include "sim/jacobian_kernels.h"
-
-#include <math.h>
-
-typedef double row __attribute__((vector_size(4 * sizeof(double)), may_alias));
-
-static inline double dot(row a, row b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static inline row cross(row a, row b)
-{
-    return (row){a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0};
-}
-
-static inline double inverse(double length)
-{
-    return length > 0 ? 1 / length : 0;
-}
+#include "sim/forces_math.h"
 
 /*
  * An edge, l = a - b = |l| u, pulls at a with f = -T u, T = k (|l| - r) + d (u . v). As its ends move,
@@ -174,6 +156,59 @@ static void product(struct sim *sim, const struct sim_part *part, const struct j
         product_edges(sim, part, product);
 }
 
+/* Of a triangle whose corners' rows are x and dx: twice its vector area, and how much it turns. */
+struct turned {
+    row twice, turn;
+};
+
+/* N = s1 x s2, dN = d1 x s2 + s1 x d2. */
+static inline struct turned turn_of(const row *x, const row *dx, const uint32_t p[3])
+{
+    const row s1 = x[p[1]] - x[p[0]], s2 = x[p[2]] - x[p[0]];
+    const row d1 = dx[p[1]] - dx[p[0]], d2 = dx[p[2]] - dx[p[0]];
+    return (struct turned){cross(s1, s2), cross(d1, s2) + cross(s1, d2)};
+}
+
+static inline void add_to_own(const struct sim_part *part, row *out, uint32_t point, row what)
+{
+    if (point - part->point_begin < part->point_end - part->point_begin)
+        out[point] += what;
+}
+
+/* F = q N/6 with q = c + d . x: dF = (q dN + dq N)/6. */
+static void add_areas(const struct areas_product *product, const struct sim_part *part, const row *x,
+                      const uint32_t p[3], bool alike)
+{
+    const row *dx = (row *)product->dx, slope = *(const row *)product->pressure.gradient,
+              slope_change = *(const row *)product->change.gradient;
+    const struct turned n = turn_of(x, dx, p);
+    const double sixth = product->a / 6, c = product->pressure.constant, dc = product->change.constant;
+    const row same = sixth * (c * n.turn + dc * n.twice);
+    for (int k = 0; k < 3; k++) {
+        row what = same;
+        if (!alike)
+            what += sixth * (dot(slope, x[p[k]]) * n.turn +
+                             (dot(slope_change, x[p[k]]) + dot(slope, dx[p[k]])) * n.twice);
+        add_to_own(part, (row *)product->df, p[k], what);
+    }
+}
+
+static bool is_zero(const double x[4])
+{
+    return x[0] == 0 && x[1] == 0 && x[2] == 0;
+}
+
+static void areas(struct sim *sim, const struct sim_part *part, const struct areas_product *product)
+{
+    const bool alike = is_zero(product->pressure.gradient) && is_zero(product->change.gradient);
+    const uint32_t first = part->balloon->point_begin;
+    for (uint32_t i = 0; i < triangles_of(part); i++) {
+        const uint32_t t = triangle_of(part, i), *p = sim->triangle_point[t];
+        if (sim->triangle_active[t] && (!product->held || product->held[p[0] - first]))
+            add_areas(product, part, (row *)sim->position, p, alike);
+    }
+}
+
 /* block += factor u g^T. */
 static inline void add_outer(row block[3], double factor, row u, row g)
 {
@@ -234,4 +269,4 @@ static void diagonal(struct sim *sim, const struct sim_part *part, double a, dou
 }
 
 extern const struct jacobian_kernels SIM_JACOBIAN;
-const struct jacobian_kernels SIM_JACOBIAN = {edges, triangles, points, product, diagonal};
+const struct jacobian_kernels SIM_JACOBIAN = {edges, triangles, points, product, areas, diagonal};

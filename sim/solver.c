@@ -1,7 +1,7 @@
 #include "sim/solver.h"
 #include "common/threads.h"
 #include "sim/jacobian.h"
-#include "sim/jacobian_kernels.h"
+#include "sim/solver_kernels.h"
 #include "sim/vectors.h"
 
 #include <math.h>
@@ -9,6 +9,20 @@
 #include <string.h>
 
 enum { RESIDUAL, SHADOW, DIRECTION, MAPPED_DIRECTION, MAPPED_RESIDUAL, SCRATCH };
+
+extern const struct solver_kernels solver_plain;
+#ifdef SIM_HAS_AVX2
+extern const struct solver_kernels solver_avx2;
+#endif
+
+static const struct solver_kernels *find_kernels(void)
+{
+#ifdef SIM_HAS_AVX2
+    if (__builtin_cpu_supports("avx2"))
+        return &solver_avx2;
+#endif
+    return &solver_plain;
+}
 
 static uint32_t lower_end(const struct sim *sim, uint32_t edge)
 {
@@ -36,11 +50,13 @@ static void find_links(const struct sim *sim, const struct solver *solver)
 
 enum status solver_open(struct sim *sim, struct solver *solver, struct error *err)
 {
+    solver->kernels = find_kernels();
     solver->group_count = sim->point_count / SOLVER_GROUP + 1;
     solver->link = sim_table(sim, sim->edge_count, sizeof *solver->link);
+    solver->coupling = sim_table(sim, sim->edge_count, sizeof *solver->coupling);
     solver->first_link = sim_table(sim, sim->point_count + (size_t)1, sizeof *solver->first_link);
     solver->inverse = sim_table(sim, sim->point_count, sizeof *solver->inverse);
-    bool room = solver->link && solver->first_link && solver->inverse;
+    bool room = solver->link && solver->first_link && solver->coupling && solver->inverse;
     for (int i = 0; i < SOLVER_ROWS; i++)
         room &= (solver->rows[i] = sim_table(sim, sim->point_count, sizeof *solver->rows[i])) != NULL;
     if (!room)
@@ -53,27 +69,11 @@ void solver_close(struct solver *solver)
 {
     free(solver->link);
     free(solver->first_link);
+    free(solver->coupling);
     free(solver->inverse);
     for (int i = 0; i < SOLVER_ROWS; i++)
         free(solver->rows[i]);
     *solver = (struct solver){0};
-}
-
-/* By its adjugate. A block that has no inverse in numbers becomes the unit matrix over the mass: any
- * preconditioner is right, only not as fast. */
-static void invert(double block[3][4], double mass)
-{
-    double c[3][3];
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            const int p = (j + 1) % 3, q = (j + 2) % 3, r = (i + 1) % 3, s = (i + 2) % 3;
-            c[i][j] = block[p][r] * block[q][s] - block[p][s] * block[q][r];
-        }
-    const double det = block[0][0] * c[0][0] + block[0][1] * c[1][0] + block[0][2] * c[2][0];
-    const bool regular = isfinite(1 / det) && isfinite(det);
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            block[i][j] = regular ? c[i][j] / det : (i == j) / mass;
 }
 
 struct group_job {
@@ -81,39 +81,6 @@ struct group_job {
     struct solver *solver;
     double (*x)[4], (*y)[4];
 };
-
-/* Edges as the preconditioner sees them: y += B x, where -B is the system's block between an edge's ends,
- * either way, without pressure's share. */
-static inline void add_coupling(const struct solver *s, const double edge[8], const double x[4], double y[4])
-{
-    const double *u = edge, *g = edge + 4, t = s->a * edge[3];
-    const double along = s->a * (g[0] * x[0] + g[1] * x[1] + g[2] * x[2]) +
-                         s->b * g[3] * (u[0] * x[0] + u[1] * x[1] + u[2] * x[2]);
-    for (int i = 0; i < 3; i++)
-        y[i] += along * u[i] + t * x[i];
-}
-
-static inline void multiply(const double block[3][4], const double x[4], double y[4])
-{
-    for (int i = 0; i < 3; i++)
-        y[i] = block[i][0] * x[0] + block[i][1] * x[1] + block[i][2] * x[2];
-}
-
-/* What eliminating an edge's lower point does to the block of the upper one: block -= B
- * inverse B, column by column. */
-static void eliminate(const struct solver *s, const double edge[8], const double inverse[3][4],
-                      double block[3][4])
-{
-    for (int j = 0; j < 3; j++) {
-        double unit[4] = {0}, column[4] = {0}, solved[4], change[4] = {0};
-        unit[j] = 1;
-        add_coupling(s, edge, unit, column);
-        multiply(inverse, column, solved);
-        add_coupling(s, edge, solved, change);
-        for (int i = 0; i < 3; i++)
-            block[i][j] -= change[i];
-    }
-}
 
 static uint32_t group_end(const struct sim *sim, size_t group)
 {
@@ -125,17 +92,9 @@ static void factor_group(void *context, size_t group, unsigned worker)
 {
     (void)worker;
     const struct group_job *job = context;
-    const struct sim *sim = job->sim;
-    const struct solver *s = job->solver;
-    double(*block)[3][4] = s->inverse;
-    const uint32_t end = group_end(sim, group);
-    for (uint32_t p = (uint32_t)group * SOLVER_GROUP; p < end; p++) {
-        invert(block[p], sim->mass[p]);
-        for (const struct solver_link *l = s->link + s->first_link[p]; l < s->link + s->first_link[p + 1];
-             l++)
-            if (l->upper < end && sim->edge_active[l->edge])
-                eliminate(s, sim->jacobian->edge[l->edge], (const double(*)[4])block[p], block[l->upper]);
-    }
+    const uint32_t begin = (uint32_t)group * SOLVER_GROUP, end = group_end(job->sim, group);
+    job->solver->kernels->couple(job->sim, job->solver, begin, end);
+    job->solver->kernels->factor(job->sim, job->solver, begin, end);
 }
 
 static bool tears(const struct sim *sim)
@@ -156,37 +115,12 @@ void solver_prepare(struct sim *sim, struct solver *solver, double a, double b)
     threads_run(sim->pool, solver->group_count, factor_group, &(struct group_job){sim, solver, NULL, NULL});
 }
 
-/* y = P x, on one group: down through the points as they are numbered, and up again. */
 static void precondition_group(void *context, size_t group, unsigned worker)
 {
     (void)worker;
     const struct group_job *job = context;
-    const struct sim *sim = job->sim;
-    const struct solver *s = job->solver;
-    const struct solver_link *link = s->link;
-    const double(*inverse)[3][4] = (const double(*)[3][4])s->inverse,
-          (*edge)[8] = (const double(*)[8])sim->jacobian->edge;
-    double(*y)[4] = job->y;
-    const uint32_t begin = (uint32_t)group * SOLVER_GROUP, end = group_end(sim, group),
-                   *first = s->first_link;
-    for (uint32_t p = begin; p < end; p++)
-        memcpy(y[p], job->x[p], sizeof y[p]);
-    for (uint32_t p = begin; p < end; p++) {
-        const double sum[4] = {y[p][0], y[p][1], y[p][2]};
-        multiply(inverse[p], sum, y[p]);
-        for (uint32_t i = first[p]; i < first[p + 1]; i++)
-            if (link[i].upper < end)
-                add_coupling(s, edge[link[i].edge], y[p], y[link[i].upper]);
-    }
-    for (uint32_t p = end; p-- > begin;) {
-        double sum[4] = {0}, change[4];
-        for (uint32_t i = first[p + 1]; i-- > first[p];)
-            if (link[i].upper < end)
-                add_coupling(s, edge[link[i].edge], y[link[i].upper], sum);
-        multiply(inverse[p], sum, change);
-        for (int i = 0; i < 3; i++)
-            y[p][i] += change[i];
-    }
+    job->solver->kernels->precondition(job->solver, (uint32_t)group * SOLVER_GROUP,
+                                       group_end(job->sim, group), job->x, job->y);
 }
 
 void solver_precondition(struct sim *sim, struct solver *solver, double (*x)[4], double (*y)[4])

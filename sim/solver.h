@@ -8,7 +8,7 @@
  * are taken in groups of SOLVER_GROUP, as if nothing went between two groups: these are what threads share
  * out. (Smaller ones cost more iterations than threads gain: with stiffness contrasts up to fifty times as
  * many.) Equal to the bit for any number of threads. At equal error (tests/bench/bench_linear.c) GMRES takes
- * .7 to 1.5 of its time, exact factors by CHOLMOD 4 times and far more, conjugate gradients .7 at best, and
+ * .65 to 1.9 of its time, exact factors by CHOLMOD 3 times and far more, conjugate gradients .4 to 1.4, and
  * only where there are neither pressure nor dampers.
  *
  *     struct solver solver = {0};
@@ -31,9 +31,11 @@ struct solver_link {
 };
 
 struct solver {
-    double (*inverse)[3][4];  /* [point_count] of the blocks of D */
+    const struct solver_kernels *kernels;
+    double (*inverse)[3][4];  /* [point_count] of the blocks of D, by columns; owned */
     struct solver_link *link; /* [edge_count] in the order of their lower points; owned */
     uint32_t *first_link;     /* [point_count + 1] of each point; owned */
+    double (*coupling)[8];    /* [edge_count] of each link (solver_kernels.c); owned */
     size_t group_count;
     double (*rows[SOLVER_ROWS])[4]; /* [point_count] */
     double a, b;

@@ -1,9 +1,10 @@
 /* Implicit methods: their order, what they conserve, and steps a thousand times longer than
  * explicit methods bear. */
 #include "common/random.h"
+#include "common/vec3.h"
 #include "implicit.h"
 #include "sim/jacobian.h"
-#include "sim/solver.h"
+#include "sim/solver_kernels.h"
 #include "sim/vectors.h"
 
 static double energy(struct balloon *b)
@@ -278,6 +279,34 @@ static void the_solver_knows_of_a_membrane(void **state)
     close_balloon(&b);
 }
 
+extern const struct solver_kernels solver_plain;
+
+static void the_solver_gives_the_same_bits_by_any_instructions(void **state)
+{
+    (void)state;
+    struct balloon b;
+    struct error err = {0};
+    struct solver solver = {0};
+    open_swinging(&b, "rk4", 0.1);
+    struct sim *sim = &b.sim;
+    sim->settings[0].damping = 3;
+    assert_ok(sim_jacobian_open(sim, &err), &err);
+    assert_ok(solver_open(sim, &solver, &err), &err);
+    const struct solver_kernels *tables[] = {&solver_plain, solver.kernels};
+    sim_forces(sim);
+    sim_linearise(sim);
+    for (int i = 0; i < 2; i++) {
+        solver.kernels = tables[i];
+        solver_prepare(sim, &solver, 0.01, 0.1);
+        solver_precondition(sim, &solver, sim->force, sim->scratch[i]);
+    }
+    assert_memory_equal(sim->scratch[0], sim->scratch[1], sim->point_count * sizeof *sim->scratch[0]);
+    assert_true(vec3_length(sim->scratch[0][0]) > 0);
+    solver_close(&solver);
+    sim_jacobian_close(sim);
+    close_balloon(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -291,6 +320,7 @@ int main(void)
         cmocka_unit_test(several_groups_of_points_give_the_same_bits_on_several_threads),
         cmocka_unit_test(the_solver_solves_what_is_not_symmetric),
         cmocka_unit_test(the_solver_knows_of_a_membrane),
+        cmocka_unit_test(the_solver_gives_the_same_bits_by_any_instructions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
