@@ -82,9 +82,7 @@ static enum status open(struct sim *sim, struct error *err)
         return error_no_memory(err, "the choice of a method");
     sim->acting = candidates[0];
     const double stable = guard_stable_step(sim);
-    bool is_stiff = sim->whole_step > STIFF * stable;
-    for (size_t i = 0; i < sim->balloon_count; i++)
-        is_stiff &= !sim->balloons[i].topology; /* implicit solvers' tables do not follow a skin that tears */
+    const bool is_stiff = sim->whole_step > STIFF * stable;
     ((struct auto_method *)sim->method)->memory.stable = stable;
     for (int i = 0; i < CANDIDATES && !status; i++)
         if (is_stiff || !(candidates[i]->flags & INTEGRATOR_IMPLICIT))

@@ -4,10 +4,12 @@
 
 #include <math.h>
 
-/* What takes as long as how many evaluations of the forces, on icospheres of 1280 to 20480 triangles, one
- * thread: an evaluation with the derivatives that an implicit method takes there (5.6 to 6.2), an iteration
- * of its linear solver (3.3 to 3.9), and moving the points over a step. */
-static const double derivatives_work = 5.7, iteration_work = 3.5, move_work = 0.15;
+/* What takes as long as how many evaluations of the forces, on one thread and 1280 to 20480 triangles: an
+ * evaluation with the derivatives that an implicit method takes there (8.6 to 9.5 of springs with the paper's
+ * pressure, 6 without; 4.9 to 7.8 of rubber with gas, 3.7 where it resists being bent, too), an iteration of
+ * its linear solver (6.2 to 7.1, 3.1; 5.9 to 7.7, 8.2; 12 with drag and weight of air), and moving the points
+ * over a step. */
+static const double derivatives_work = 7.5, iteration_work = 6.7, move_work = 0.15;
 
 /* The rows of sim->scratch, from the trial's first on. */
 enum { STATE, COARSE = 2 };

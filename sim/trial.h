@@ -13,7 +13,7 @@ enum { TRIAL_VECTORS = 3 };
 
 /* Work of one step of an implicit method, at the least: two evaluations with
  * derivatives and three iterations. */
-enum { TRIAL_IMPLICIT_LEAST = 22 };
+enum { TRIAL_IMPLICIT_LEAST = 35 };
 
 /* The most work of one that a trial sees through: what the guard splits no step further
  * than (GUARD_PARTS_MAX). */

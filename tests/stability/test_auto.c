@@ -2,6 +2,8 @@
  * and the same everywhere. */
 #include "hard.h"
 #include "sim/auto.h"
+#include "sim/integrators.h"
+#include "sim/topology.h"
 
 #define AUTO(...) HARD("time.integrator=auto", "balloons[0].pressure=4" __VA_OPT__(, ) __VA_ARGS__)
 
@@ -154,6 +156,23 @@ static void a_trial_ends_where_the_guard_would(void **state)
 
 /* What the guard splits any step for is part of every method's price: one that is stable at any step took the
  * whole of it in its trial, and a hundred times its work in each of the parts. */
+/* At a step thousands of times as long as an explicit method may take. */
+static void stiff_skin_that_tears_is_given_to_an_implicit_method(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 2,
+                 SETTINGS("time.guard=substep", "time.integrator=auto", "time.step=0.05", "time.end=3",
+                          "balloons[0].pressure=0", "balloons[0].membrane.thickness=0.5",
+                          "balloons[0].membrane.shear_modulus=20", "balloons[0].membrane.viscosity=1e5",
+                          "balloons[0].gas.ambient=6", "balloons[0].fracture.mode=tear",
+                          "balloons[0].rip.at=0.5"));
+    steps(&b, 20);
+    assert_true(b.sim.acting->flags & INTEGRATOR_IMPLICIT);
+    assert_true(b.sim.broken + b.sim.balloons[0].topology->now.edges > 0);
+    close_balloon(&b);
+}
+
 static void a_wide_tube_splits_steps_of_every_method(void **state)
 {
     (void)state;
@@ -192,6 +211,7 @@ int main(void)
         cmocka_unit_test(a_choice_takes_no_more_than_a_few_steps),
         cmocka_unit_test(trials_leave_no_trace),
         cmocka_unit_test(a_trial_ends_where_the_guard_would),
+        cmocka_unit_test(stiff_skin_that_tears_is_given_to_an_implicit_method),
         cmocka_unit_test(a_wide_tube_splits_steps_of_every_method),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
