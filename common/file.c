@@ -144,12 +144,15 @@ enum status file_out_open(const char *path, struct file_out **result, struct err
     struct file_out *out = calloc(1, sizeof *out);
     if (!out)
         return error_no_memory(err, path);
-    struct stat old;
+    struct stat old, link;
     bool exists = !stat(path, &old);
     bool replaced = !exists || S_ISREG(old.st_mode); /* a pipe's resolved name leads nowhere */
     out->target = exists && replaced ? realpath(path, NULL) : strdup(path);
     enum status status = STATUS_OK;
-    if (exists && S_ISDIR(old.st_mode)) {
+    if (!exists && !lstat(path, &link) && S_ISLNK(link.st_mode)) {
+        status = error_set(err, STATUS_FILE,
+                           "%s: is a link that leads nowhere; make what it leads to, or remove it", path);
+    } else if (exists && S_ISDIR(old.st_mode)) {
         status = error_set(err, STATUS_FILE, "%s: is a folder; give the name of a file in it", path);
     } else if (!out->target) {
         status = error_no_memory(err, path);

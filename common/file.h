@@ -9,7 +9,8 @@
  *
  * The bytes go to a temporary file in the same folder; commit flushes, syncs and renames it over the target,
  * so the file that was there stays whole until the new one is. A target that is no regular file (/dev/stdout,
- * /dev/full, a pipe) is written in place. A symbolic link is followed, not replaced.
+ * /dev/full, a pipe) is written in place. A symbolic link is followed, not replaced; one that leads
+ * nowhere is refused.
  */
 #ifndef COMMON_FILE_H
 #define COMMON_FILE_H

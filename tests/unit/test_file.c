@@ -211,9 +211,30 @@ static void a_socket_is_refused_and_stays(void **state)
     close(bound);
 }
 
+/* Neither it nor what it leads to is the file that was meant. */
+static void a_link_that_leads_nowhere_is_not_replaced(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct file_out *out;
+    struct stat info;
+    static const char *const targets[] = {"no-such-file", "nowhere"}; /* the second: to itself */
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(symlink(targets[i], "nowhere"), 0);
+        assert_refused(file_out_open("nowhere", &out, &err), STATUS_FILE,
+                       "nowhere: is a link that leads nowhere", &err);
+        assert_refused(file_out_check("nowhere", &err), STATUS_FILE, "nowhere: is a link that leads nowhere",
+                       &err);
+        assert_int_equal(lstat("nowhere", &info), 0);
+        assert_true(S_ISLNK(info.st_mode));
+        unlink("nowhere");
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_link_that_leads_nowhere_is_not_replaced),
         cmocka_unit_test(a_committed_file_replaces_the_old_one),
         cmocka_unit_test(an_abandoned_file_leaves_the_old_one_and_nothing_else),
         cmocka_unit_test(a_link_is_followed_not_replaced),
