@@ -1,8 +1,7 @@
 #include "sculpt/bricks.h"
 
 #include "common/array.h"
-
-#include <string.h>
+#include "sculpt/rows.h"
 
 /* A brick's cells and one more to each side, a bit a cell: bit x + 1 of row [z + 1][y + 1]. */
 enum { ROWS = BRICK_SIDE + 2 };
@@ -23,18 +22,7 @@ int bricks_along(const struct octree *tree)
 static bool mark_leaf(void *context, const struct octree_leaf *leaf)
 {
     struct brick_cells *cells = context;
-    const int start[3] = {leaf->x, leaf->y, leaf->z};
-    int low[3], high[3]; /* of the leaf within the rows */
-    for (int i = 0; i < 3; i++) {
-        low[i] = start[i] - cells->first[i];
-        high[i] = low[i] + leaf->side - 1;
-        low[i] = low[i] < 0 ? 0 : low[i];
-        high[i] = high[i] >= ROWS ? ROWS - 1 : high[i];
-    }
-    const uint64_t bits = (((uint64_t)1 << (high[0] - low[0] + 1)) - 1) << low[0];
-    for (int z = low[2]; z <= high[2]; z++)
-        for (int y = low[1]; y <= high[1]; y++)
-            cells->row[z][y] |= bits;
+    rows_mark(&cells->row[0][0], ROWS, cells->first, leaf);
     cells->mixed |= cells->material && cells->material != leaf->material;
     cells->material = leaf->material;
     return true;

@@ -1,5 +1,7 @@
 #include "sculpt/normals.h"
 
+#include "sculpt/rows.h"
+
 #include <math.h>
 #include <pthread.h>
 #include <string.h>
@@ -33,18 +35,7 @@ static void make_tables(void)
 static bool mark_leaf(void *context, const struct octree_leaf *leaf)
 {
     struct brick_normals *normals = context;
-    const int start[3] = {leaf->x, leaf->y, leaf->z};
-    int low[3], high[3]; /* of the leaf within the rows */
-    for (int i = 0; i < 3; i++) {
-        low[i] = start[i] - normals->first[i];
-        high[i] = low[i] + leaf->side - 1;
-        low[i] = low[i] < 0 ? 0 : low[i];
-        high[i] = high[i] >= NORMALS_ROWS ? NORMALS_ROWS - 1 : high[i];
-    }
-    const uint64_t bits = (((uint64_t)1 << (high[0] - low[0] + 1)) - 1) << low[0];
-    for (int z = low[2]; z <= high[2]; z++)
-        for (int y = low[1]; y <= high[1]; y++)
-            normals->row[z][y] |= bits;
+    rows_mark(&normals->row[0][0], NORMALS_ROWS, normals->first, leaf);
     return true;
 }
 

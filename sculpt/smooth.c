@@ -6,6 +6,7 @@
 #include "sculpt/smooth.h"
 
 #include "common/array.h"
+#include "sculpt/rows.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -34,17 +35,8 @@ struct tiles {
 static bool fill_rows(void *context, const struct octree_leaf *leaf)
 {
     struct window *window = context;
-    const int at[3] = {leaf->x, leaf->y, leaf->z};
-    int first[3], end[3];
-    for (int k = 0; k < 3; k++) {
-        first[k] = at[k] - window->corner[k] + 1;
-        end[k] = first[k] + leaf->side < PADDED ? first[k] + leaf->side : PADDED;
-        first[k] = first[k] > 0 ? first[k] : 0;
-    }
-    uint64_t bits = (UINT64_C(1) << end[0]) - (UINT64_C(1) << first[0]);
-    for (int z = first[2]; z < end[2]; z++)
-        for (int y = first[1]; y < end[1]; y++)
-            window->row[z][y] |= bits;
+    const int *corner = window->corner, first[3] = {corner[0] - 1, corner[1] - 1, corner[2] - 1};
+    rows_mark(&window->row[0][0], PADDED, first, leaf);
     return true;
 }
 
