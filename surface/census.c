@@ -13,8 +13,7 @@ static uint32_t root_of(uint32_t *parent, uint32_t point)
     return point;
 }
 
-/* part[p]: the number of the part that point p belongs to, in the order of the parts' first points. */
-static size_t number_parts(const struct mesh *mesh, uint32_t *part)
+size_t surface_number_parts(const struct mesh *mesh, uint32_t *part)
 {
     size_t count = 0;
     for (uint32_t p = 0; p < mesh->point_count; p++)
@@ -72,7 +71,7 @@ static bool count_valences(const struct mesh *mesh, uint32_t *valences)
 static bool count_parts(const struct mesh *mesh, struct surface_census *census)
 {
     uint32_t *part = array_new(mesh->point_count, sizeof *part);
-    census->part_count = part ? number_parts(mesh, part) : 0;
+    census->part_count = part ? surface_number_parts(mesh, part) : 0;
     census->parts = part ? calloc(census->part_count, sizeof *census->parts) : NULL;
     if (census->parts) {
         for (uint32_t p = 0; p < mesh->point_count; p++)

@@ -35,6 +35,10 @@ struct surface_census {
     uint32_t valences[CENSUS_VALENCES];
 };
 
+/* part[point_count]: the number of the part that each point belongs to, in the order of the parts' first
+ * points. Returns how many there are. The mesh must be connected. */
+size_t surface_number_parts(const struct mesh *mesh, uint32_t *part);
+
 /* The mesh must be connected and closed, shape what surface_measure() found. Errors: STATUS_NO_MEMORY. */
 enum status surface_count(const struct mesh *mesh, const struct surface_shape *shape,
                           struct surface_census *census, struct error *err);

@@ -1,31 +1,17 @@
 #include "common/array.h"
 #include "common/vec3.h"
-#include "surface/surface.h"
+#include "surface/census.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-static uint32_t root_of(uint32_t *parent, uint32_t point)
-{
-    while (parent[point] != point)
-        point = parent[point] = parent[parent[point]];
-    return point;
-}
-
 static bool count_components(const struct mesh *mesh, size_t *count)
 {
-    uint32_t *parent = array_new(mesh->point_count, sizeof *parent);
-    if (!parent)
+    uint32_t *part = array_new(mesh->point_count, sizeof *part);
+    if (!part)
         return false;
-    *count = mesh->point_count;
-    for (uint32_t i = 0; i < mesh->point_count; i++)
-        parent[i] = i;
-    for (uint32_t i = 0; i < mesh->edge_count; i++) {
-        uint32_t a = root_of(parent, mesh->edge[i][0]), b = root_of(parent, mesh->edge[i][1]);
-        parent[a > b ? a : b] = a > b ? b : a;
-        *count -= a != b;
-    }
-    free(parent);
+    *count = surface_number_parts(mesh, part);
+    free(part);
     return true;
 }
 
