@@ -194,7 +194,10 @@ static enum status save_skin(const struct sim *sim, const char *path, struct err
     struct mesh_report report;
     enum status status = sim_skin(sim, &mesh, err);
     if (!status && mesh.triangle_count == 0)
-        status = error_set(err, STATUS_INPUT, "%s: no skin is left to be written", path);
+        status = error_set(
+            err, STATUS_INPUT,
+            "%s: no skin is left to be written at %g s; give an earlier time.end, or --mesh-series", path,
+            sim->time);
     if (!status)
         status = mesh_repair(&mesh, &report, err);
     if (!status)

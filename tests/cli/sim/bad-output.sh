@@ -16,6 +16,8 @@ no_file end.xyz
 no_file log.tsv
 echo old >log.tsv
 refused 1 '' balloon-sim m.ply $short --log log.tsv -o /proc/end.ply
+refused 1 '^balloon-sim: end.ply: no skin is left to be written at 0.1 s; give an earlier time.end, or --mesh-series$' \
+    balloon-sim m.ply $short -o end.ply --set balloons[0].threshold=1.001 --set balloons[0].pressure=1000
 only_files m.ply frames log.tsv
 expect 1 sh -c 'balloon-sim "$@" >/dev/full' sh m.ply --hash $short
 stderr_has 'cannot write the results'
