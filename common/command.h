@@ -19,11 +19,13 @@
  * end the program. */
 void command_begin(const char *program);
 
+/* A flag of options that all count when they are given several times (none of argp's); keys are below. */
+enum { OPTION_REPEATS = 0x1000, COMMAND_KEYS = 512 };
+
 /* argp_parse(), which ends the program with a message and exit code 2 where the command line is
  * wrong; of an option that there is not the message names the nearest that there is. Of an option that is
  * given several times, and has not the flag OPTION_REPEATS, the last counts, and a note says so. Every option
  * of `argp` has a long name and a key below COMMAND_KEYS. */
-enum { OPTION_REPEATS = 0x1000, COMMAND_KEYS = 512 };
 void command_parse(const struct argp *argp, int argc, char **argv, void *input);
 
 /* Memory that is freed stays with the program: the software renderer asks for the same tens of megabytes for
