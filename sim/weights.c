@@ -1,6 +1,7 @@
 #include "sim/weights.h"
 
 #include "sim/bodies.h"
+#include "sim/gas.h"
 #include "sim/membrane.h"
 #include "sim/vectors.h"
 
@@ -57,6 +58,14 @@ double weights_of_body(const struct sim *sim, uint32_t scalar)
         return 0;
     const double place = body->balloon->radius;
     return scalar < body->first + SIM_BODY_SPEED ? place : place * body->balloon->breathing_rate;
+}
+
+double weights_of_record(const struct sim *sim, uint32_t scalar)
+{
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
+        if (b->gas && scalar == b->gas->scalar + GAS_BROUGHT)
+            return b->gas->filling;
+    return 0;
 }
 
 struct difference {

@@ -18,6 +18,9 @@ enum status weights_open(struct sim *sim, struct error *err);
  * none. */
 double weights_of_body(const struct sim *sim, uint32_t scalar);
 
+/* Likewise where it records what was brought into a balloon: by what gas fills that; 0: it does not. */
+double weights_of_record(const struct sim *sim, uint32_t scalar);
+
 /* RMS over the points of (dx, dv), both rows of [point_count], over the tolerance. */
 double weights_norm(struct sim *sim, double (*dx)[4], double (*dv)[4], double tolerance);
 
