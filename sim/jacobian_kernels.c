@@ -179,8 +179,9 @@ static inline void add_to_own(const struct sim_part *part, row *out, uint32_t po
 static void add_areas(const struct areas_product *product, const struct sim_part *part, const row *x,
                       const uint32_t p[3], bool alike)
 {
-    const row *dx = (row *)product->dx, slope = *(const row *)product->pressure.gradient,
-              slope_change = *(const row *)product->change.gradient;
+    const double *d = product->pressure.gradient, *change = product->change.gradient;
+    const row *dx = (row *)product->dx, slope = {d[0], d[1], d[2], 0},
+              slope_change = {change[0], change[1], change[2], 0};
     const struct turned n = turn_of(x, dx, p);
     const double sixth = product->a / 6, c = product->pressure.constant, dc = product->change.constant;
     const row same = sixth * (c * n.turn + dc * n.twice);
