@@ -6,6 +6,7 @@
 
 #include <GL/freeglut.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -208,6 +209,7 @@ static enum status open_glut(struct window *window, const char *title, struct er
         return error_set(err, STATUS_RESOURCE, "no window can be opened on the display \"%s\": %s",
                          display ? display : "", failure);
     }
+    signal(SIGPIPE, SIG_IGN); /* where the display goes away, Xlib answers the failed write: exit 1 */
     glutInit(&count, words);
     glutInitDisplayMode(plain | GLUT_STEREO);
     if (!glutGet(GLUT_DISPLAY_MODE_POSSIBLE))

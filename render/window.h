@@ -67,7 +67,8 @@ struct window_events {
 
 /* Opens a window whose picture is width x height pixels, at a place of the window manager's choice. `events`
  * and `self` are borrowed. Errors, each one line: STATUS_RESOURCE where there is no display, or none that
- * gives OpenGL 3.3; STATUS_NO_MEMORY. Where the screen has buffers for two eyes the window has them. */
+ * gives OpenGL 3.3; STATUS_NO_MEMORY. Where the screen has buffers for two eyes the window has them.
+ * SIGPIPE is ignored from then on. */
 enum status window_open(const char *title, int width, int height, const struct window_events *events,
                         void *self, struct window **window, struct error *err);
 
