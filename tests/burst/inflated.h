@@ -106,6 +106,34 @@ static inline void prick(struct inflated *it)
     fracture_prick(&it->sim, it->balloon, (const double[3]){2, 1.7, 2.3});
 }
 
+/* Of all points: their momentum and mass. */
+struct bulk {
+    double momentum[3], mass;
+};
+
+static inline struct bulk bulk_of(const struct inflated *it)
+{
+    struct bulk bulk = {0};
+    for (uint32_t p = 0; p < it->balloon->point_end; p++) {
+        bulk.mass += it->sim.mass[p];
+        for (int i = 0; i < 3; i++)
+            bulk.momentum[i] += it->sim.mass[p] * it->sim.velocity[p][i];
+    }
+    return bulk;
+}
+
+/* Pricked while at rest it has, after so much time, no momentum beyond `error`, and all its mass. */
+static inline void assert_a_burst_keeps_bulk(struct inflated *it, double time, double error)
+{
+    const double mass = bulk_of(it).mass;
+    prick(it);
+    run_until(it, time);
+    const struct bulk after = bulk_of(it);
+    assert_near(after.mass, mass, 1e-12);
+    for (int i = 0; i < 3; i++)
+        assert_near(after.momentum[i], 0, error);
+}
+
 /* Pieces as they hang together, counted anew from the neighbours. */
 struct shreds {
     uint32_t count, fewest; /* triangles of the smallest */

@@ -221,20 +221,33 @@ static void several_groups_of_points_give_the_same_bits_on_several_threads(void 
     close_balloon(&one);
 }
 
+/* A swinging balloon with derivatives, and a solver for it. */
+static void open_solver(struct balloon *b, struct solver *solver)
+{
+    struct error err = {0};
+    open_swinging(b, "rk4", 0.1);
+    b->sim.settings[0].damping = 3;
+    assert_ok(sim_jacobian_open(&b->sim, &err), &err);
+    assert_ok(solver_open(&b->sim, solver, &err), &err);
+}
+
+static void close_solver(struct balloon *b, struct solver *solver)
+{
+    solver_close(solver);
+    sim_jacobian_close(&b->sim);
+    close_balloon(b);
+}
+
 /* M x - a K x - b D x against the right-hand side, in the solver's own measure: the residual's recurrence
  * loses a little to rounding, some 1e-12 of the whole. */
 static void the_solver_solves_what_is_not_symmetric(void **state)
 {
     (void)state;
     struct balloon b;
-    struct error err = {0};
     struct solver solver = {0};
-    open_swinging(&b, "rk4", 0.1);
+    open_solver(&b, &solver);
     struct sim *sim = &b.sim;
     sim->settings[0].pressure = 100;
-    sim->settings[0].damping = 3;
-    assert_ok(sim_jacobian_open(sim, &err), &err);
-    assert_ok(solver_open(sim, &solver, &err), &err);
     sim_linearise(sim);
     double(*x)[4] = sim->scratch[0], (*image)[4] = sim->scratch[1];
     sim_forces(sim);
@@ -247,9 +260,7 @@ static void the_solver_solves_what_is_not_symmetric(void **state)
                 image[p][i] += sim->force[p][i] - sim->mass[p] * x[p][i];
         assert_true(solver_size(sim, &solver, image) <= 1.01e-9 * solver_size(sim, &solver, sim->force));
     }
-    solver_close(&solver);
-    sim_jacobian_close(sim);
-    close_balloon(&b);
+    close_solver(&b, &solver);
 }
 
 /* In a skin that is pulled and has been shaken. Without the membrane's share in the preconditioner six digits
@@ -285,13 +296,9 @@ static void the_solver_gives_the_same_bits_by_any_instructions(void **state)
 {
     (void)state;
     struct balloon b;
-    struct error err = {0};
     struct solver solver = {0};
-    open_swinging(&b, "rk4", 0.1);
+    open_solver(&b, &solver);
     struct sim *sim = &b.sim;
-    sim->settings[0].damping = 3;
-    assert_ok(sim_jacobian_open(sim, &err), &err);
-    assert_ok(solver_open(sim, &solver, &err), &err);
     const struct solver_kernels *tables[] = {&solver_plain, solver.kernels};
     sim_forces(sim);
     sim_linearise(sim);
@@ -302,9 +309,7 @@ static void the_solver_gives_the_same_bits_by_any_instructions(void **state)
     }
     assert_memory_equal(sim->scratch[0], sim->scratch[1], sim->point_count * sizeof *sim->scratch[0]);
     assert_true(vec3_length(sim->scratch[0][0]) > 0);
-    solver_close(&solver);
-    sim_jacobian_close(sim);
-    close_balloon(&b);
+    close_solver(&b, &solver);
 }
 
 int main(void)
