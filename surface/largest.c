@@ -78,8 +78,9 @@ enum status field_largest(const struct field *field, double enough, double *valu
 {
     struct search search = {
         .enough = enough, .value = -INFINITY, .apart = cubes_apart(field), .latest = {-1, -1, -1}};
-    if (probe_init(&search.probe, field, err))
-        return err->status;
+    enum status status = probe_init(&search.probe, field, err);
+    if (status)
+        return status;
     probe_expect(&search.probe, 1);
     octree_visit_all(field->tree, look_at_leaf, &search);
     if (search.value < enough)
