@@ -232,14 +232,9 @@ static void let_all_go(struct sim *sim, struct sim_balloon *b)
     sim_tell(sim, b, "gas", "has left through the holes, and sleeps");
 }
 
-static bool is_collapse(const struct gas *gas, double volume)
-{
-    return !(volume > 1e-6 * gas->rest_volume);
-}
-
 static bool is_collapsed(const struct gas *gas)
 {
-    return is_collapse(gas, gas->volume);
+    return !(gas->volume > 1e-6 * gas->rest_volume);
 }
 
 /* Triangles of the paper's skin went at once, with no time for anything to be pressed together: what is
@@ -251,9 +246,10 @@ static void lose_outside(struct sim *sim, struct sim_balloon *b)
     double *scalar = &sim->scalar[gas->scalar];
     const double before = gas_torn_volume_before(sim, b);
     gas_torn_let_go(sim, b);
-    gas->volume = is_collapse(gas, before) ? before : gas_volume(sim, b);
-    if (is_collapse(gas, before))
+    gas->volume = before;
+    if (is_collapsed(gas))
         return; /* for check() */
+    gas->volume = gas_volume(sim, b);
     if (is_collapsed(gas) || is_too_wide(gas, gas_torn_missing(sim, b))) {
         let_all_go(sim, b);
     } else if (gas->volume < before) {
