@@ -76,12 +76,14 @@ static enum status add_item(struct scene *scene, const struct scene_block *block
 }
 
 /* group NULL: not by a file. */
-static void call_for(const struct scene_block *block, void *target, const config_setting_t *group)
+static void call_for(const struct scene_block *block, void *target, const config_setting_t *group,
+                     const struct scene_source *source)
 {
     if (block->on_offset != SIZE_MAX)
         *(bool *)((char *)target + block->on_offset) = true;
-    if (block->line_offset != SIZE_MAX && group)
-        *(unsigned *)((char *)target + block->line_offset) = config_setting_source_line(group);
+    if (block->line_offset != SIZE_MAX && group && source->text)
+        *(unsigned *)((char *)target + block->line_offset) = scene_text_own_line(
+            source->text, config_setting_source_line(group));
 }
 
 /* Reads one key, and keeps that and where it was written. */
@@ -91,10 +93,10 @@ static enum status read_field(const struct scene_block *block, const struct scen
 {
     const enum status status = scene_read_value(field, value, source, target, err);
     struct scene_written *written = (struct scene_written *)((char *)target + block->written_offset);
-    const bool in_file = source->file && !config_setting_source_file(value);
+    const unsigned line = source->text ? scene_text_own_line(source->text, config_setting_source_line(value))
+                                       : 0;
     if (!status)
-        written->line[field - block->fields] = in_file ? (int)config_setting_source_line(value)
-                                                       : SCENE_NOT_IN_FILE;
+        written->line[field - block->fields] = line > 0 ? (int)line : SCENE_NOT_IN_FILE;
     return status;
 }
 
@@ -140,7 +142,7 @@ static enum status read_block(const struct scene_block *block, void *target, con
 {
     if (!config_setting_is_group(group))
         return scene_refuse(source, group, err, "%s must be a block: { key = value; ... }", block->name);
-    call_for(block, target, group);
+    call_for(block, target, group, source);
     for (int i = 0; i < config_setting_length(group); i++) {
         const config_setting_t *value = config_setting_get_elem(group, (unsigned)i);
         enum status status = read_key(block, target, value, config_setting_name(value), source, err);
@@ -210,10 +212,10 @@ static enum status parse_file(const char *path, const struct bytes *text, struct
         free(folder);
         return error_no_memory(err, path);
     }
-    const struct scene_source source = {path, folder};
+    struct scene_text whole = {0};
+    const struct scene_source source = {&whole, folder};
     config_t config;
     config_init(&config);
-    config_set_include_dir(&config, *folder ? folder : ".");
     enum status status;
     if (strlen((const char *)text->data) != text->size)
         status = error_set(
@@ -222,10 +224,13 @@ static enum status parse_file(const char *path, const struct bytes *text, struct
             file_has_extension(path, "oct") ? "a sculpture, of which balloon-surface makes a mesh"
                                             : "not text");
     else
-        status = scene_parse_text(&config, path, (const char *)text->data, err);
+        status = scene_text_read(path, folder, text, &whole, err);
+    if (!status)
+        status = scene_parse_text(&config, &whole, err);
     if (!status)
         status = read_scene(&config, &source, scene, err);
     config_destroy(&config);
+    scene_text_clear(&whole);
     free(folder);
     return status;
 }
@@ -325,7 +330,7 @@ static enum status set_by_path(struct scene *scene, const char *path, const conf
         if (status)
             return status;
         block = inner;
-        call_for(block, target, NULL);
+        call_for(block, target, NULL, &source);
         if (!*path)
             return error_set(err, STATUS_INPUT, "--set: %s is a block; set one of its keys: %s.KEY=VALUE",
                              whole, whole);

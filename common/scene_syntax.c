@@ -128,6 +128,33 @@ static bool say(struct scene_slip *slip, unsigned line, const char *format, ...)
     return true;
 }
 
+/* Whether the reader is before one, which begins its line. */
+static bool is_include(const char *text, const struct scan *scan, struct scene_include *include)
+{
+    static const char word[] = "@include";
+    const char *begin = scan->at, *name = scan->at + strlen(word);
+    while (begin > text && (begin[-1] == ' ' || begin[-1] == '\t'))
+        begin--;
+    if ((begin > text && begin[-1] != '\n') || strncmp(scan->at, word, strlen(word)))
+        return false;
+    name += strspn(name, " \t");
+    const size_t length = *name == '"' ? text_length(name) : 0;
+    if (length < 2 || name[length - 1] != '"' || memchr(name, '\n', length))
+        return false;
+    *include = (struct scene_include){scan->at, name + length, name + 1, name + length - 1, scan->line};
+    return true;
+}
+
+bool scene_find_include(const char *text, struct scene_include *include)
+{
+    struct scan scan = {include->end, include->line};
+    for (struct token token = {.kind = MARK}; token.kind != END; token = next(&scan))
+        for (size_t empty; (empty = gap(scan.at)) > 0; pass(&scan, empty))
+            if (is_include(text, &scan, include))
+                return true;
+    return false;
+}
+
 bool scene_find_cut_number(const char *text, struct scene_slip *slip)
 {
     struct scan scan = {text, 1};
@@ -209,9 +236,11 @@ static bool close_one(struct reader *r, const struct token *token)
     if (token->kind == END)
         return say(r->slip, open->line, "`%c` is never closed; a `%c` is missing", *open->from, wanted);
     r->state = AFTER;
-    return !is(token, wanted) &&
-           say(r->slip, token->line, "`%c` comes before the `%c` that closes the `%c` of line %u",
-               *token->from, wanted, *open->from, open->line);
+    if (is(token, wanted))
+        return false;
+    r->slip->open = open->line;
+    return say(r->slip, token->line, "`%c` comes before the `%c` that closes the `%c`", *token->from, wanted,
+               *open->from);
 }
 
 /* Where a key is wanted. */
@@ -305,16 +334,18 @@ static bool read_after(struct reader *r, const struct token *token)
     if (token->kind == END || closes(token))
         return close_one(r, token);
     const struct token *open = &r->open[r->depth - 1];
-    if (is(token, ';'))
-        return say(r->slip, token->line,
-                   "`;` stands where a `,`, or the `%c` that closes the `%c` of line %u, is wanted",
-                   partner(open), *open->from, open->line);
+    if (is(token, ';')) {
+        r->slip->open = open->line;
+        return say(r->slip, token->line, "`;` stands where a `,` is wanted, or the `%c` that closes the `%c`",
+                   partner(open), *open->from);
+    }
     return say(r->slip, token->line, "a `,` is missing before `%.*s`", shown(token), token->from);
 }
 
 bool scene_find_slip(const char *text, struct scene_slip *slip)
 {
     struct reader r = {.scan = {text, 1}, .slip = slip};
+    slip->open = 0;
     struct token token, before_key = {0};
     do {
         token = next(&r.scan);

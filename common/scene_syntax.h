@@ -16,7 +16,18 @@
 struct scene_slip {
     unsigned line;  /* from 1 */
     char text[200]; /* "a comma is missing before `{`" */
+    unsigned open;  /* the line of the bracket that the text ends with; 0: it ends with none */
 };
+
+/* `@include "NAME"` in a text: from `begin` to `end`, on that line. */
+struct scene_include {
+    const char *begin, *end, *name, *name_end;
+    unsigned line;
+};
+
+/* The first that begins a line of `text` at or behind include->end, which is on include->line. False: there
+ * is none. */
+bool scene_find_include(const char *text, struct scene_include *include);
 
 /* The first whole number of `text` beyond 32 bits. False: there is none. */
 bool scene_find_cut_number(const char *text, struct scene_slip *slip);

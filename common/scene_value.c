@@ -17,8 +17,10 @@ enum status scene_refuse(const struct scene_source *source, const config_setting
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    if (source->file)
-        return error_set(err, STATUS_INPUT, "%s:%u: %s", source->file, config_setting_source_line(at), text);
+    if (source->text) {
+        const struct scene_place place = scene_text_place(source->text, config_setting_source_line(at));
+        return error_set(err, STATUS_INPUT, "%s:%u: %s", place.file, place.line, text);
+    }
     return error_set(err, STATUS_INPUT, "--set: %s", text);
 }
 
@@ -247,35 +249,38 @@ config_setting_t *scene_parse_value(config_t *config, const char *text)
 }
 
 /* Where the file is not libconfig's grammar, with what would be right. */
-static enum status refuse_grammar(const config_t *config, const char *path, const char *text,
-                                  struct error *err)
+static enum status refuse_grammar(const config_t *config, const struct scene_text *text, struct error *err)
 {
-    const char *included = config_error_file(config), *wrong = config_error_text(config);
+    const char *wrong = config_error_text(config);
     struct scene_slip slip = {.line = (unsigned)config_error_line(config)};
+    char of[32] = "";
     if (strstr(wrong, "duplicate"))
         snprintf(slip.text, sizeof slip.text, "a key stands twice in its block");
-    else if (!included && scene_find_slip(text, &slip))
+    else if (scene_find_slip(text->whole, &slip))
         wrong = "syntax error";
     else if (strstr(wrong, "mismatched element"))
-        snprintf(slip.text, sizeof slip.text, "write %s, numbers alone",
-                 included ? "[0.0, 1.0, 2.5] or (0, 1, 2.5)" : "[0, 1, 2.5]");
+        snprintf(slip.text, sizeof slip.text, "write [0, 1, 2.5], numbers alone");
     else
         snprintf(slip.text, sizeof slip.text,
                  "a scene is made of lines like key = value; with text in quotes");
-    return error_set(err, STATUS_INPUT, "%s:%u: %s; %s", included ? included : path, slip.line, wrong,
-                     slip.text);
+    if (slip.open > 0)
+        snprintf(of, sizeof of, " of line %u", scene_text_place(text, slip.open).line);
+    const struct scene_place place = scene_text_place(text, slip.line);
+    return error_set(err, STATUS_INPUT, "%s:%u: %s; %s%s", place.file, place.line, wrong, slip.text, of);
 }
 
-enum status scene_parse_text(config_t *config, const char *path, const char *text, struct error *err)
+enum status scene_parse_text(config_t *config, const struct scene_text *text, struct error *err)
 {
     struct scene_slip slip;
-    if (scene_find_cut_number(text, &slip))
-        return error_set(err, STATUS_INPUT, "%s:%u: %s", path, slip.line, slip.text);
-    char *loose = strdup(text);
+    if (scene_find_cut_number(text->whole, &slip)) {
+        const struct scene_place place = scene_text_place(text, slip.line);
+        return error_set(err, STATUS_INPUT, "%s:%u: %s", place.file, place.line, slip.text);
+    }
+    char *loose = strdup(text->whole);
     if (!loose)
-        return error_no_memory(err, path);
+        return error_no_memory(err, text->files.items[0]);
     scene_loosen_arrays(loose);
     const bool good = config_read_string(config, loose);
     free(loose);
-    return good ? STATUS_OK : refuse_grammar(config, path, text, err);
+    return good ? STATUS_OK : refuse_grammar(config, text, err);
 }

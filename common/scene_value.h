@@ -6,14 +6,15 @@
 #define COMMON_SCENE_VALUE_H
 
 #include "common/scene_fields.h"
+#include "common/scene_text.h"
 #include "common/status.h"
 
 #include <libconfig.h>
 
 /* Where values come from: a file, or one assignment on the command line. */
 struct scene_source {
-    const char *file;   /* NULL: --set */
-    const char *folder; /* what relative paths are relative to; "" or ending in a slash */
+    const struct scene_text *text; /* NULL: --set */
+    const char *folder;            /* what relative paths are relative to; "" or ending in a slash */
 };
 
 /* "FILE:LINE: ..." or "--set: ...", STATUS_INPUT. */
@@ -32,9 +33,9 @@ enum status scene_read_number(const struct scene_field *field, const config_sett
 enum status scene_read_value(const struct scene_field *field, const config_setting_t *value,
                              const struct scene_source *source, void *block, struct error *err);
 
-/* Lets libconfig read a scene, but for what it would misread. STATUS_INPUT: "PATH:LINE: ...", with what would
+/* Lets libconfig read a scene, but for what it would misread. STATUS_INPUT: "FILE:LINE: ...", with what would
  * be right. */
-enum status scene_parse_text(config_t *config, const char *path, const char *text, struct error *err);
+enum status scene_parse_text(config_t *config, const struct scene_text *text, struct error *err);
 
 /* The value written in `text`, as libconfig reads it; bare words are taken as if in quotes. It belongs to
  * config, which must be initialised. NULL when it is no value. */

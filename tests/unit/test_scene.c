@@ -185,7 +185,7 @@ static void slips_of_the_pen_are_named_with_what_would_be_right(void **state)
         {"balloons = (\n{ mesh = \"a.ply\"; gas = { ambient = 6; };\n);",
          ":3: syntax error; `)` comes before the `}` that closes the `{` of line 2"},
         {"balloons = ( { mesh = \"a.ply\"; };",
-         "`;` stands where a `,`, or the `)` that closes the `(` of line 1, is wanted"},
+         "`;` stands where a `,` is wanted, or the `)` that closes the `(` of line 1"},
         {"balloons = (\n { mesh = \"a.ply\"; }\n", ":1: syntax error; `(` is never closed; a `)` is missing"},
         {"time = { step = 1; }; };", "`}` closes nothing"},
         {"time = { step = 1; step = 2; };", "a key stands twice in its block"},
