@@ -64,6 +64,12 @@ enum status file_make_folder(const char *path, struct error *err);
 /* True when both names lead to the same existing file. */
 bool file_same(const char *a, const char *b);
 
+/* Whether each of the files that are to be written (a NULL is none) is no other one of them, and none that is
+ * read, under whatever name; devices and pipes may be several. Errors: STATUS_FILE for one that is read,
+ * STATUS_USAGE for one that would be written twice. */
+enum status file_check_clash(const char *const *read, size_t read_count, const char *const *written,
+                             size_t written_count, struct error *err);
+
 /* True when a folder of PATH has a program of that name. */
 bool file_program_exists(const char *program);
 

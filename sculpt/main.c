@@ -335,10 +335,29 @@ static enum status open_window(const struct options *options, struct error *err)
     return sculpt_window(&window, err);
 }
 
+/* FILE.oct may be carved into itself; what it is begun with otherwise, or carved by, stays. */
+static enum status check_files(const struct options *options, struct error *err)
+{
+    const char *read[] = {options->script, options->import};
+    const char **written = array_new(options->export_count + 2, sizeof *written);
+    size_t count = 0;
+    if (!written)
+        return error_no_memory(err, "the names of files");
+    written[count++] = options->output;
+    written[count++] = options->picture;
+    for (size_t i = 0; i < options->export_count; i++)
+        written[count++] = options->exports[i];
+    enum status status = file_check_clash(read, sizeof read / sizeof *read, written, count, err);
+    free(written);
+    return status;
+}
+
 static enum status carve_in_batch(const struct options *options, struct error *err)
 {
     struct work work = {0};
-    enum status status = make(options, &work, err);
+    enum status status = check_files(options, err);
+    if (!status)
+        status = make(options, &work, err);
     if (!status)
         status = hand_out(options, &work, err);
     octree_clear(&work.tree);

@@ -11,8 +11,7 @@ struct motion_cache {
     char *mesh; /* file of the mesh; NULL once it is written */
 };
 
-/* The same name with .ply in place of .pc2. */
-static char *mesh_path(const char *path)
+char *motion_cache_mesh_name(const char *path)
 {
     char *mesh = strdup(path);
     if (mesh)
@@ -26,7 +25,7 @@ enum status motion_cache_open(struct sim *sim, const char *path, uint64_t first,
     struct motion_cache *cache = calloc(1, sizeof *cache);
     if (!cache)
         return error_no_memory(err, path);
-    cache->mesh = mesh_path(path);
+    cache->mesh = motion_cache_mesh_name(path);
     enum status status = cache->mesh ? skin_mesh_init(&cache->skin, sim, true, err)
                                      : error_no_memory(err, path);
     if (!status)

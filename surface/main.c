@@ -272,23 +272,24 @@ static enum status report(struct mesh *mesh, const struct arguments *arguments, 
 /* What cannot be written is known before the work. */
 static enum status check_files(const struct arguments *arguments, struct error *err)
 {
-    const char *targets[] = {arguments->output, arguments->render, arguments->cost};
-    for (int i = 0; i < 3; i++)
-        if (targets[i] && file_same(targets[i], arguments->input))
-            return error_set(err, STATUS_FILE, "%s: is the sculpture itself; write to another file",
-                             targets[i]);
-    if ((arguments->output && file_out_check(arguments->output, err)) ||
-        (arguments->render && file_out_check(arguments->render, err)))
-        return err->status;
-    return STATUS_OK; /* cost_check() knows the names of what it writes */
+    const char *cost = arguments->cost;
+    char *table = cost ? plot_table_name(cost) : NULL;
+    if (cost && !table)
+        return error_no_memory(err, cost);
+    const char *written[] = {arguments->output, arguments->render, table,
+                             cost && plot_is_file_name(cost) ? cost : NULL};
+    const size_t count = sizeof written / sizeof *written;
+    enum status status = file_check_clash(&arguments->input, 1, written, count, err);
+    for (size_t i = 0; i < count && !status; i++)
+        status = written[i] ? file_out_check(written[i], err) : STATUS_OK;
+    free(table);
+    return status;
 }
 
 /* Where gnuplot is missing the table is still printed, and the failure told at the end. */
 static enum status price(const struct arguments *arguments, const struct octree *tree, struct error *err)
 {
     struct cost_table table;
-    if (cost_check(arguments->cost, err))
-        return err->status;
     begin_progress("pricing", tree);
     enum status status = surface_cost(tree, &arguments->options, &table, err);
     progress_end();

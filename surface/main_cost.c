@@ -145,16 +145,6 @@ static enum status draw(const struct cost_table *table, const char *sculpture, c
     return plot_save(&plot, path, err);
 }
 
-enum status cost_check(const char *path, struct error *err)
-{
-    char *name = plot_table_name(path);
-    if (!name)
-        return error_no_memory(err, path);
-    enum status status = file_out_check(name, err);
-    free(name);
-    return status;
-}
-
 enum status cost_save(const struct cost_table *table, const char *sculpture, const char *path,
                       struct error *err)
 {

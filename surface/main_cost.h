@@ -10,10 +10,6 @@
  * to set for errors of 1e-2, 1e-3 and 1e-4. */
 void cost_print(const struct cost_table *table, FILE *stream);
 
-/* Before the long work: whether cost_save() could begin to write its table. Errors:
- * STATUS_FILE, STATUS_NO_MEMORY. */
-enum status cost_check(const char *path, struct error *err);
-
 /* Writes FILE.tsv, or the plot FILE.png or FILE.svg with the table in FILE.tsv beside it. Errors:
  * STATUS_USAGE for another extension, STATUS_RESOURCE where gnuplot is missing (the table is then
  * written), STATUS_FILE. */

@@ -231,10 +231,46 @@ static void a_link_that_leads_nowhere_is_not_replaced(void **state)
     }
 }
 
+static void make_empty(const char *path)
+{
+    FILE *stream = fopen(path, "w");
+    assert_non_null(stream);
+    fclose(stream);
+}
+
+/* One that is there by its file, one that is not by its folder and name. */
+static void no_file_is_written_twice_or_read_too(void **state)
+{
+    static const char *const clashes[][2] = {{"here", "there"},  {"here", "./here"}, {"link/here", "here"},
+                                             {"new", "new"},     {"new", "./new"},   {"link/new", "new"},
+                                             {"new", "link/new"}};
+    static const char *const others[][2] = {{"here", "new"},      {"new", "newer"},
+                                            {"new", "/tmp/new"},  {"/dev/null", "/dev/null"},
+                                            {"no/new", "no/new"}, {NULL, NULL}};
+    struct error err = {0};
+    (void)state;
+    make_empty("here");
+    assert_int_equal(symlink("here", "there") || symlink(".", "link"), 0);
+    for (size_t i = 0; i < sizeof clashes / sizeof *clashes; i++) {
+        assert_refused(file_check_clash(NULL, 0, clashes[i], 2, &err), STATUS_USAGE, "two outputs", &err);
+        if (i < 3)
+            assert_refused(file_check_clash(clashes[i], 1, clashes[i] + 1, 1, &err), STATUS_FILE,
+                           "is read here", &err);
+    }
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        assert_int_equal(file_check_clash(NULL, 0, others[i], 2, &err), STATUS_OK);
+        assert_int_equal(file_check_clash(others[i], 1, others[i] + 1, 1, &err), STATUS_OK);
+    }
+    unlink("link");
+    unlink("there");
+    unlink("here");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_link_that_leads_nowhere_is_not_replaced),
+        cmocka_unit_test(no_file_is_written_twice_or_read_too),
         cmocka_unit_test(a_committed_file_replaces_the_old_one),
         cmocka_unit_test(an_abandoned_file_leaves_the_old_one_and_nothing_else),
         cmocka_unit_test(a_link_is_followed_not_replaced),

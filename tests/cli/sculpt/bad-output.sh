@@ -15,6 +15,18 @@ only_files folder.oct empty.chips
 expect 1 sh -c 'balloon-sculpt --info >/dev/full'
 stderr_has 'cannot write the results'
 
+# No output takes the place of what is read, or of another output.
+echo 'start empty # by hand' >hand.chips
+cp hand.chips before.chips
+expect 0 balloon-sculpt --depth 2 --export model.ply
+cp model.ply before.ply
+refused 1 'hand\.chips: is read here' balloon-sculpt --script hand.chips --export ./hand.chips
+refused 1 'model\.ply: is read here' balloon-sculpt --import model.ply --export model.ply
+refused 2 './a\.vox: two outputs' balloon-sculpt --export a.vox --export ./a.vox
+same_file hand.chips before.chips
+same_file model.ply before.ply
+rm hand.chips before.chips model.ply before.ply
+
 # A file that may not grow is like a full disk: no more than 1024 bytes here.
 expect 0 balloon-sculpt --depth 3 -o kept.oct
 cp kept.oct before.oct

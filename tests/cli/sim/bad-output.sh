@@ -21,3 +21,19 @@ refused 1 '^balloon-sim: end.ply: no skin is left to be written at 0.1 s; give a
 only_files m.ply frames log.tsv
 expect 1 sh -c 'balloon-sim "$@" >/dev/full' sh m.ply --hash $short
 stderr_has 'cannot write the results'
+
+# No output takes the place of what is read, or of another output.
+cp m.ply kept.ply
+echo 'balloons = ( { mesh = "m.ply"; } );' >m.cfg
+cp m.cfg kept.cfg
+refused 1 'm\.ply: is read here, and would be replaced' balloon-sim m.ply $short --point-cache m.pc2 # and m.ply beside it
+refused 1 './m\.ply: is read here' balloon-sim m.cfg $short -o ./m.ply
+refused 1 'm\.cfg: is read here' balloon-sim m.cfg $short --log m.cfg
+refused 2 './a\.tsv: two outputs would go there' balloon-sim m.cfg $short --log a.tsv --pieces ./a.tsv
+refused 2 'a\.png: two outputs would go there' balloon-sim m.cfg $short --plot a.png --contact-sheet a.png
+refused 2 'a\.ply: two outputs would go there' balloon-sim m.cfg $short --point-cache a.pc2 -o a.ply
+mv m.cfg m.tsv
+refused 1 'm\.tsv: is read here' balloon-sim m.tsv $short --accuracy-cost m.png # and m.tsv beside it
+same_file m.ply kept.ply
+same_file m.tsv kept.cfg
+only_files m.ply frames log.tsv kept.ply kept.cfg m.tsv

@@ -8,8 +8,13 @@ refused 1 'no/such/a\.stl: cannot create' balloon-surface cube.oct -o no/such/a.
 refused 1 '/proc/a\.png: cannot create' balloon-surface cube.oct --render /proc/a.png
 refused 1 'no/such/a\.ply: cannot create' balloon-surface cube.oct --threshold 3 -o no/such/a.ply # before the work
 ln -s cube.oct same.ply
-refused 1 'same\.ply: is the sculpture itself' balloon-surface cube.oct -o same.ply
+refused 1 'same\.ply: is read here' balloon-surface cube.oct -o same.ply
 same_file cube.oct kept.oct
+refused 2 'a\.png: two outputs' balloon-surface cube.oct --render a.png --accuracy-cost ./a.png
+ln -s cube.oct a.tsv
+refused 1 'a\.tsv: is read here' balloon-surface cube.oct --accuracy-cost a.png # and a.tsv beside it
+same_file cube.oct kept.oct
+rm a.tsv
 echo old >a.ply
 refused 1 'no point reaches' balloon-surface cube.oct --threshold 3 -o a.ply
 [ "$(cat a.ply)" = old ] || fail "a.ply was touched"
