@@ -17,27 +17,27 @@ enum status sim_add_body(struct sim *sim, const struct sim_balloon *balloon, uin
 
 const struct sim_body *sim_body_of(const struct sim *sim, uint32_t scalar)
 {
-    for (const struct sim_body *b = sim->body; b < sim->body + sim->body_count; b++)
-        if (scalar >= b->first && scalar < b->first + SIM_BODY_SCALARS)
-            return b;
+    for (uint32_t n = 0; n < sim->body_count; n++)
+        if (scalar >= sim->body[n].first && scalar < sim->body[n].first + SIM_BODY_SCALARS)
+            return &sim->body[n];
     return NULL;
 }
 
 void sim_drift_bodies(struct sim *sim, double dt, const double *rate)
 {
-    for (const struct sim_body *b = sim->body; b < sim->body + sim->body_count; b++)
+    for (uint32_t n = 0; n < sim->body_count; n++)
         for (uint32_t i = 0; i < 3; i++) {
-            const uint32_t speed = b->first + SIM_BODY_SPEED + i;
-            sim->scalar[b->first + SIM_BODY_PLACE + i] += dt * (sim->scalar[speed] +
-                                                                (rate ? dt / 2 * rate[speed] : 0));
+            const uint32_t speed = sim->body[n].first + SIM_BODY_SPEED + i;
+            sim->scalar[sim->body[n].first + SIM_BODY_PLACE + i] += dt * (sim->scalar[speed] +
+                                                                          (rate ? dt / 2 * rate[speed] : 0));
         }
 }
 
 void sim_hold_bodies(const struct sim *sim, double *rate)
 {
-    for (const struct sim_body *b = sim->body; b < sim->body + sim->body_count; b++)
+    for (uint32_t n = 0; n < sim->body_count; n++)
         for (uint32_t i = 0; i < 3; i++)
-            rate[b->first + SIM_BODY_PLACE + i] = 0;
+            rate[sim->body[n].first + SIM_BODY_PLACE + i] = 0;
 }
 
 void sim_advance_scalars(struct sim *sim, double dt)

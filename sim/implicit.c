@@ -90,10 +90,11 @@ static void place_points(struct sim *sim, double c)
 static double follow_bodies(struct sim *sim, double c, const double *base)
 {
     double farthest = 0;
-    for (const struct sim_body *b = sim->body; b < sim->body + sim->body_count; b++) {
+    for (uint32_t n = 0; n < sim->body_count; n++) {
+        const uint32_t first = sim->body[n].first;
         double moved = 0, size = 0;
         for (uint32_t i = 0; i < 3; i++) {
-            const uint32_t at = b->first + SIM_BODY_PLACE + i, going = b->first + SIM_BODY_SPEED + i;
+            const uint32_t at = first + SIM_BODY_PLACE + i, going = first + SIM_BODY_SPEED + i;
             double *place = &sim->scalar[at], *speed = &sim->scalar[going];
             const double before = *place;
             *speed = base[going] + c * sim->scalar_rate[going];
