@@ -94,7 +94,7 @@ enum status scene_check(struct scene *scene, struct error *err)
         if (!status)
             status = check_rip(scene, i, err);
         if (!status)
-            status = scene_check_membrane(scene, i, err);
+            status = scene_check_skin(scene, i, err);
         if (!status)
             status = scene_check_fracture(scene, i, err);
         if (!status)
@@ -104,12 +104,8 @@ enum status scene_check(struct scene *scene, struct error *err)
         if (status)
             return status;
     }
-    for (size_t i = 0; i < scene->schedule_count; i++)
-        if (scene->schedule[i].balloon >= (int)scene->balloon_count)
-            return error_set(err, STATUS_INPUT,
-                             "%s:%u: schedule[%zu].balloon is %d, but the balloons are 0 to %zu", scene->path,
-                             scene->schedule[i].line, i, scene->schedule[i].balloon,
-                             scene->balloon_count - 1);
-    sort_schedule(scene);
-    return scene_check_surroundings(scene, err);
+    enum status status = scene_check_surroundings(scene, err);
+    if (!status)
+        sort_schedule(scene);
+    return status;
 }

@@ -157,5 +157,12 @@ enum status scene_check_surroundings(const struct scene *scene, struct error *er
                              "%s: needles[%zu] names no point; give from = [x, y, z], where it is at first",
                              place, i);
         }
+    for (size_t i = 0; i < scene->schedule_count; i++)
+        if (scene->schedule[i].balloon >= (int)scene->balloon_count) {
+            write_place(scene, scene->schedule[i].line, place, sizeof place);
+            return error_set(err, STATUS_INPUT,
+                             "%s: schedule[%zu].balloon is %d, but the balloons are 0 to %zu", place, i,
+                             scene->schedule[i].balloon, scene->balloon_count - 1);
+        }
     return STATUS_OK;
 }

@@ -1,5 +1,5 @@
-/* Contradictions between the blocks of a scene, for scene_check(). All return STATUS_INPUT with the
- * block's line, or STATUS_OK. */
+/* Contradictions between the blocks of a scene, for scene_check(). Each scene_check_...() returns STATUS_INPUT
+ * with the block's line, or STATUS_OK. */
 #ifndef COMMON_SCENE_CHECKS_H
 #define COMMON_SCENE_CHECKS_H
 
@@ -20,15 +20,18 @@ bool scene_has_gas(const struct scene *scene);
  * gas, a tube to nowhere. */
 enum status scene_check_gas(const struct scene *scene, size_t number, struct error *err);
 
-/* Directions of pins, string and neck that are none; a weight that nothing pulls. */
+/* Directions of pins, string and neck that are none. */
 enum status scene_check_places(const struct scene *scene, size_t number, struct error *err);
 
-/* Ground and needles: a slope without direction, a needle that is nowhere. */
+/* Ground, needles and schedule: a slope without direction, a needle that is nowhere, a change of a balloon
+ * that is not there. */
 enum status scene_check_surroundings(const struct scene *scene, struct error *err);
+
 /* A skin that tears by a method, or with springs, that cannot follow it (scene_checks_skin.c). */
 enum status scene_check_fracture(const struct scene *scene, size_t number, struct error *err);
-/* A membrane without thickness, with springs' settings or springs' methods, or of no rubber
- * (scene_checks_skin.c). */
-enum status scene_check_membrane(const struct scene *scene, size_t number, struct error *err);
+
+/* A membrane without thickness, with springs' settings or springs' methods, or of no rubber; bending by a
+ * method that cannot follow it, viscosity quicker than the steps (scene_checks_skin.c). */
+enum status scene_check_skin(const struct scene *scene, size_t number, struct error *err);
 
 #endif

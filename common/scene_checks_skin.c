@@ -71,14 +71,9 @@ static enum status check_bending(const struct scene *scene, size_t number, struc
                                "time.integrator \"xpbd\" moves springs only; take \"auto\"");
 }
 
-enum status scene_check_membrane(const struct scene *scene, size_t number, struct error *err)
+static enum status check_membrane(const struct scene *scene, size_t number, struct error *err)
 {
     const struct scene_balloon *b = &scene->balloons[number];
-    const enum status status = check_bending(scene, number, err);
-    if (status)
-        return status;
-    if (!b->membrane.on)
-        return check_viscosity(scene, number, err);
     if (!(b->membrane.thickness > 0))
         return scene_contradiction(scene, number, "membrane", b->membrane.line, err,
                                    "give thickness; that of a toy balloon is about a hundredth of its "
@@ -95,4 +90,13 @@ enum status scene_check_membrane(const struct scene *scene, size_t number, struc
         return scene_contradiction(scene, number, "membrane", b->membrane.line, err,
                                    "time.integrator \"xpbd\" moves springs only; take \"auto\"");
     return check_ogden(scene, number, err);
+}
+
+enum status scene_check_skin(const struct scene *scene, size_t number, struct error *err)
+{
+    const enum status status = check_bending(scene, number, err);
+    if (status)
+        return status;
+    return scene->balloons[number].membrane.on ? check_membrane(scene, number, err)
+                                               : check_viscosity(scene, number, err);
 }
