@@ -1,5 +1,5 @@
-/* Contradictions between the blocks of a scene, for scene_check(). Each scene_check_...() returns STATUS_INPUT
- * with the block's line, or STATUS_OK. */
+/* Contradictions between the blocks of a scene, for scene_check(). Each scene_check_...() returns
+ * STATUS_INPUT with the block's line, or STATUS_OK. */
 #ifndef COMMON_SCENE_CHECKS_H
 #define COMMON_SCENE_CHECKS_H
 
