@@ -34,23 +34,41 @@ static const char *place_of(const char *name)
     return NULL;
 }
 
-/* The path of a key of that name in another block, the first that has one; false: none has. */
-static bool find_path(const char *name, char *path, size_t size)
+struct path {
+    char text[128];
+};
+
+/* "gravity", "gravity.acceleration", "balloons[0].gas", "needles[0].from" */
+static struct path path_of(const struct scene_block *block, const char *key)
 {
+    struct path path;
+    snprintf(path.text, sizeof path.text, "%s%s%s%s%s%s", block->parent, block->parent[0] ? "[0]." : "",
+             block->name, key && block->list ? "[0]" : "", key ? "." : "", key ? key : "");
+    return path;
+}
+
+/* The path of a name anywhere in a scene that is alike in four of five letters, since there are many; "" where
+ * there is none. */
+static struct path find_elsewhere(const char *name)
+{
+    struct spelling close = {name, NULL, strlen(name) / 5 + 1};
+    struct path path = {""};
     for (size_t i = 0; i < scene_block_count; i++) {
         const struct scene_block *block = &scene_blocks[i];
-        if (!scene_find_field(block, name))
-            continue;
-        snprintf(path, size, "%s%s%s%s.%s", block->parent, block->parent[0] ? "[0]." : "", block->name,
-                 block->list ? "[0]" : "", name);
-        return true;
+        for (size_t k = 0; k <= block->field_count; k++) {
+            const char *key = k < block->field_count ? block->fields[k].key : NULL, *was = close.nearest;
+            spelling_consider(&close, key ? key : block->name);
+            if (close.nearest != was)
+                path = path_of(block, key);
+        }
     }
-    return false;
+    return path;
 }
 
 enum status scene_refuse_name(const struct scene_source *source, const config_setting_t *at, const char *name,
                               const struct scene_block *block, struct error *err)
 {
+    enum { SLIP = 2 };
     const char *owner = block ? block->name : "", *place = place_of(name);
     if (place && !strcmp(owner, "schedule"))
         return scene_refuse(
@@ -66,10 +84,10 @@ enum status scene_refuse_name(const struct scene_source *source, const config_se
     for (size_t i = 0; i < scene_block_count; i++)
         if (!strcmp(scene_blocks[i].parent, owner))
             spelling_consider(&guess, scene_blocks[i].name);
-    char path[128];
-    const char *meant = guess.nearest;
-    if ((!block || !meant) && find_path(name, path, sizeof path))
-        meant = path;
+    struct path elsewhere = {""};
+    if (!guess.nearest || guess.distance > SLIP)
+        elsewhere = find_elsewhere(name);
+    const char *meant = elsewhere.text[0] ? elsewhere.text : guess.nearest;
     return scene_refuse(source, at, err, "unknown key `%s`%s%s%s%s%s; --help-scene lists all keys", name,
                         block ? " in " : "", owner, meant ? " (did you mean `" : "", meant ? meant : "",
                         meant ? "`?)" : "");
