@@ -267,7 +267,7 @@ bool cost_recommend(const struct cost_table *table, enum cost_dial dial, double 
         memcpy(setting, best->setting, sizeof best->setting);
         return true;
     }
-    if (dial == COST_FIELDS)
+    if (dial == COST_FIELDS && finest) /* else the exact field has no surface */
         strcpy(setting, "exact");
     else if (dial == COST_CUBE_SIZE && finest && table->order[dial] > 0)
         snprintf(setting, 32, "%.4g", finest->step * pow(error / finest->rms, 1 / table->order[dial]));
