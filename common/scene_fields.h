@@ -13,14 +13,16 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#define SCENE_TIME_FIELDS(X)                                                                             \
-    X(step, NUMBER, 1e-9, 1e6, "0.025", "s", LIVE,                                                       \
-      "from one step to the next; the longest one where a method chooses for itself", "paper 4")         \
-    X(end, NUMBER, 0, 1e9, "10", "s", FREE, "when the simulation ends", "paper 4: about 400 frames")     \
-    X(integrator, CHOICE, 0, 0, "\"auto\"", "", 0, "method that moves the points", "paper 3.1")          \
-    X(tolerance, NUMBER, 1e-12, 0.1, "1e-5", "radii", 0,                                                 \
-      "error in places that a method which chooses its steps, or what auto chooses, allows in each", "") \
-    X(guard, CHOICE, 0, 0, "\"substep\"", "", 0,                                                         \
+#define SCENE_TIME_FIELDS(X)                                                                              \
+    X(step, NUMBER, 1e-9, 1e6, "0.025", "s", LIVE,                                                        \
+      "from one step to the next; the longest one where a method chooses for itself", "paper 4")          \
+    X(end, NUMBER, 0, 1e9, "10", "s", FREE, "when the simulation ends", "paper 4: about 400 frames")      \
+    X(integrator, CHOICE, 0, 0, "\"auto\"", "", 0, "method that moves the points", "paper 3.1")           \
+    X(tolerance, NUMBER, 1e-12, 0.1, "1e-5", "radii", 0,                                                  \
+      "error in places that a method which chooses its steps, or what auto chooses, allows in each; not " \
+      "what ground, obstacles and contact add by turning skin back at their ends",                        \
+      "")                                                                                                 \
+    X(guard, CHOICE, 0, 0, "\"substep\"", "", 0,                                                          \
       "steps that are not surely stable: split them, refuse them, or let them go", "")
 
 #define SCENE_VIEW_FIELDS(X)                                                                                 \

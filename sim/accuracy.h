@@ -87,6 +87,7 @@ struct accuracy_table {
     char reference[2][96];
     double agreement;   /* RMS distance of the references, in mean radii: no row is below ten times that */
     size_t left_out;    /* rows that would have been */
+    double met;         /* s; when anything first turned skin back; INFINITY: nothing did */
     double first_break; /* s; INFINITY: nothing broke */
     double burst,
         burst_end; /* s: one edge in a hundred had let go; when pieces are counted; INFINITY: no ensembles */

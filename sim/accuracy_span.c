@@ -55,6 +55,7 @@ enum status accuracy_find_reach(struct accuracy_plan *plan, struct error *err)
     }
     plan->evaluation = run.seconds / (double)run.evaluations;
     plan->reach = run.sim.time;
+    table->met = run.sim.met;
     const char *reason = sim_at_end(&run.sim) ? "the end" : "what there is time for";
     if (isfinite(table->first_break)) {
         plan->reach = 0.9 * table->first_break; /* other methods break a little earlier */

@@ -188,11 +188,26 @@ void effects_run(struct sim *sim, enum effect_phase phase)
         sim->ledger.account.let_go += held - held_as_a_whole(sim, false);
 }
 
+/* What turns points back does so at a step's end, which no method's estimate of its error sees. */
+static void note_met(struct sim *sim, const char *effect)
+{
+    const struct integrator *method = sim->integrator;
+    sim->met = sim->time;
+    if (method->choose || method->flags & INTEGRATOR_ADAPTIVE)
+        sim_tell(sim, sim->balloons, effect,
+                 "turns points back, at the ends of steps: that error goes with the step, not with "
+                 "time.tolerance (--estimate tells it)");
+}
+
 enum status effects_settle(struct sim *sim, struct error *err)
 {
     enum status status = STATUS_OK;
-    for (size_t i = 0; i < sim->hook_count[EFFECT_MOVED] && !status; i++)
-        status = sim->hooks[EFFECT_MOVED][i].effect->settle(sim, err);
+    for (size_t i = 0; i < sim->hook_count[EFFECT_MOVED] && !status; i++) {
+        const struct effect *effect = sim->hooks[EFFECT_MOVED][i].effect;
+        status = effect->settle(sim, err);
+        if (sim->changed && !isfinite(sim->met))
+            note_met(sim, effect->name);
+    }
     sim->swept &= !sim->changed || sim->pushed;
     return status;
 }

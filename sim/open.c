@@ -307,8 +307,11 @@ static enum status build(struct sim *sim, const struct mesh *meshes, unsigned wo
 enum status sim_open(struct sim *sim, const struct scene *scene, const struct mesh *meshes, unsigned workers,
                      struct error *err)
 {
-    *sim = (struct sim){
-        .scene = scene, .balloon_count = scene->balloon_count, .step = scene->time.step, .finer = 1};
+    *sim = (struct sim){.scene = scene,
+                        .balloon_count = scene->balloon_count,
+                        .step = scene->time.step,
+                        .finer = 1,
+                        .met = INFINITY};
     sim->integrator = integrator_find(scene_integrator_names[scene->time.integrator]);
     sim->acting = sim->integrator;
     sim->kernels = kernels_find();

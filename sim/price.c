@@ -88,6 +88,12 @@ static void print_span(const struct accuracy_table *table, FILE *stream)
     for (size_t i = 0; i < table->count; i++)
         best = fmin(best, table->rows[i].error);
     fprintf(stream, ", %.3g times better than the best row\n", best / table->agreement);
+    if (isfinite(table->met))
+        fprintf(
+            stream,
+            "# skin is turned back from %.4g s on, at the ends of steps: what that is off goes with the step, "
+            "by any method, and time.tolerance does not reach it; references agree on it but roughly\n",
+            table->met);
     if (table->left_out)
         fprintf(stream, "# left out: %zu rows with errors below what the references or rounding can tell\n",
                 table->left_out);

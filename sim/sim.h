@@ -184,6 +184,7 @@ struct sim {
     struct sim_seen *seen; /* [part_count] by the last sweep (sweep.h), */
     bool swept;            /*    with which this step ended, and nothing has moved a point since, */
     bool pushed;           /*    or obstacles and contact have, and shown each such point to it */
+    double met;            /* when they first did in these steps; INFINITY: not yet */
     const struct sim_kernels *kernels;
     struct {
         void *position, *velocity, *force, *normal; /* [point_count] what the kernels work on */

@@ -285,6 +285,34 @@ static void test_no_turn_takes_a_point_further_than_the_sweep_knows(void **state
     close_balloon(&b);
 }
 
+/* Steps that go by a tolerance know nothing of hits, which are settled at their ends. */
+static void test_a_hit_is_told_once_where_a_tolerance_does_not_reach_it(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *integrator;
+        int times;
+    } cases[] = {{"time.integrator=rk-adaptive", 1}, {"time.integrator=auto", 1}, {"time.integrator=rk4", 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct balloon b;
+        int told = 0;
+        double first = INFINITY;
+        open_balloon(&b, 2,
+                     SETTINGS(cases[i].integrator, "balloons[0].pressure=0",
+                              "gravity.acceleration=[0,-100,0]", "ground.height=-50", "time.end=0.6"));
+        while (!sim_at_end(&b.sim)) {
+            steps(&b, 1);
+            first = b.sim.pushed || b.sim.met < first ? fmin(first, b.sim.time) : first;
+        }
+        for (size_t k = 0; k < b.sim.news_count; k++)
+            told += !strcmp(b.sim.news[k].effect, "ground") && b.sim.news[k].time == b.sim.met;
+        assert_int_equal(told, cases[i].times);
+        assert_near(b.sim.met, first, 0);
+        assert_true(b.sim.met > 0.2 && b.sim.met < 0.4); /* 5 are fallen in sqrt(2 x 5/100) s = 0.316 s */
+        close_balloon(&b);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -296,6 +324,7 @@ int main(void)
         cmocka_unit_test(test_far_ground_changes_no_bit),
         cmocka_unit_test(test_what_is_far_is_met_as_if_each_step_had_looked),
         cmocka_unit_test(test_no_turn_takes_a_point_further_than_the_sweep_knows),
+        cmocka_unit_test(test_a_hit_is_told_once_where_a_tolerance_does_not_reach_it),
         cmocka_unit_test(test_a_gap_is_no_wider_than_it_is),
         cmocka_unit_test(test_a_needle_tears_the_skin_where_and_when_it_arrives),
         cmocka_unit_test(test_a_needle_slits_a_membrane_where_it_meets_it),
