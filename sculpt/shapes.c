@@ -238,11 +238,14 @@ static void init_half_space(struct shape *shape, const double *value)
     }
 }
 
+/* Shorter ways, whose squares are hardly numbers, are none. */
+static const double shortest = 1e-150;
+
 static void init_axis(struct shape *shape, const double *value, double first_radius, double last_radius)
 {
     double axis[3], largest = fmax(first_radius, last_radius);
     vec3_sub(value + 3, value, axis);
-    shape->length = vec3_length(axis);
+    shape->length = vec3_length(axis) >= shortest ? vec3_length(axis) : 0;
     for (int k = 0; k < 3; k++) {
         shape->centre[k] = value[k];
         shape->direction[k] = shape->length > 0 ? axis[k] / shape->length : 0;

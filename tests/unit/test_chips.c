@@ -211,6 +211,13 @@ static void a_capsule_that_does_not_move_is_its_larger_sphere(void **state)
 {
     (void)state;
     struct octree sphere = new_tree(DEPTH, 0), still = new_tree(DEPTH, 0), swallowed = new_tree(DEPTH, 0);
+    struct octree border = new_tree(DEPTH, 0), hardly = new_tree(DEPTH, 0);
+    cells_after(&border, (struct chip){CHIP_SPHERE, 1, {0, 0.5, 0.5, 0.3}, CHIP_CARVE, 0});
+    cells_after(&hardly, /* a way whose square is hardly a number */
+                (struct chip){CHIP_CAPSULE, 1, {0, 0.5, 0.5, 1.6e-162, 0.5, 0.5, 0.3, 0.3}, CHIP_CARVE, 0});
+    assert_true(octree_equal(&border, &hardly));
+    octree_clear(&border);
+    octree_clear(&hardly);
     cells_after(&sphere, (struct chip){CHIP_SPHERE, 1, {0.5, 0.5, 0.5, 0.3}, CHIP_CARVE, 0});
     cells_after(&still,
                 (struct chip){CHIP_CAPSULE, 1, {0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.1, 0.3}, CHIP_CARVE, 0});
