@@ -134,8 +134,8 @@ static enum status read_corners(struct ply_body *body, const struct ply_property
         if (status)
             break;
         if (!(value >= 0 && value < body->mesh.point_count) || value != (double)(uint32_t)value)
-            return body_fail(body, err, "corner %zu is vertex %.17g; must be 0 to %u", i, value,
-                             body->mesh.point_count - 1);
+            return body_fail(body, err, "corner %zu is vertex %.17g; there are %u, from 0 on", i, value,
+                             body->mesh.point_count);
         corner[i < 2 ? i : 2] = (uint32_t)value;
         if (i >= 2) {
             status = triangle_list_add(&body->triangles, corner[0], corner[1], corner[2], err);

@@ -274,7 +274,12 @@ static void a_text_body_that_is_wrong_is_named_by_line_and_element(void **state)
                         "a.ply:11: vertex 1: 'O' is no number");
     assert_text_refused(HEAD "0 0 0\n1 nan 0\n1 1 0\n0 1 0\n4 0 1 2 3\n", "a.ply:11: vertex 1: y is nan");
     assert_text_refused(HEAD "0 0 0\n1 1e999 0\n1 1 0\n0 1 0\n4 0 1 2 3\n", "vertex 1: y is inf");
-    assert_text_refused(HEAD SQUARE "4 0 1 2 4\n", "a.ply:14: face 0: corner 3 is vertex 4; must be 0 to 3");
+    assert_text_refused(HEAD SQUARE "4 0 1 2 4\n",
+                        "a.ply:14: face 0: corner 3 is vertex 4; there are 4, from 0 on");
+    assert_text_refused(
+        "ply\nformat ascii 1.0\nelement vertex 0\nproperty int x\nproperty int y\nproperty int z\n" FACES
+        "end_header\n3 0 1 2\n",
+        "corner 0 is vertex 0; there are 0, from 0 on");
     assert_text_refused(HEAD SQUARE "4 0 1 2 -1\n", "corner 3 is vertex -1");
     assert_text_refused(HEAD SQUARE "4 0 1 2 1.5\n", "corner 3 is vertex 1.5");
     assert_text_refused(HEAD SQUARE "2 0 1\n", "a.ply:14: face 0: 2 corners; a face needs at least 3");
