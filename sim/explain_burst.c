@@ -70,29 +70,46 @@ static double needed(struct sim *sim, const struct sim_balloon *b, double *stret
     return INFINITY;
 }
 
-/* The largest that a key of a balloon ever is. */
-static double largest(const struct sim *sim, const struct sim_balloon *b, const char *key, double first)
+/* Gives *value what an entry of the schedule makes of that key of the balloon. */
+static void follow(const struct sim *sim, const struct sim_balloon *b, const struct scene_schedule *entry,
+                   const char *key, double *value)
+{
+    for (size_t k = 0; k < entry->change_count; k++)
+        if ((entry->balloon < 0 || sim->balloons + entry->balloon == b) &&
+            !strcmp(entry->change[k].field->key, key))
+            *value = entry->change[k].value;
+}
+
+static double largest_pressure(const struct sim *sim, const struct sim_balloon *b)
 {
     const struct scene *scene = sim->scene;
-    double most = first;
-    for (size_t i = 0; i < scene->schedule_count; i++) {
-        const struct scene_schedule *entry = &scene->schedule[i];
-        for (size_t k = 0; k < entry->change_count; k++)
-            if ((entry->balloon < 0 || sim->balloons + entry->balloon == b) &&
-                !strcmp(entry->change[k].field->key, key))
-                most = fmax(most, entry->change[k].value);
+    double pressure = b->scene->pressure, most = pressure;
+    for (size_t i = 0; i < scene->schedule_count && scene->schedule[i].at < scene->time.end; i++) {
+        follow(sim, b, &scene->schedule[i], "pressure", &pressure);
+        most = fmax(most, pressure);
     }
     return most;
 }
 
-/* The largest that the scene ever gives. */
-static double given(const struct sim *sim, const struct sim_balloon *b)
+/* The pump has so long as the run goes on and no neck is open. */
+static double largest_filling(const struct sim *sim, const struct sim_balloon *b)
 {
+    const struct scene *scene = sim->scene;
     const struct scene_gas *gas = &b->scene->gas;
-    if (!b->gas)
-        return largest(sim, b, "pressure", b->scene->pressure);
-    const bool pumps = largest(sim, b, "pump", gas->pump) > 0;
-    return fmax(gas->fill, pumps ? largest(sim, b, "pump_until", gas->pump_until) : 0);
+    const double end = gas->neck > 0 ? fmin(scene->time.end, gas->neck_at) : scene->time.end;
+    double fill = gas->fill, most = fill, pump = gas->pump, until = gas->pump_until, time = 0;
+    for (size_t i = 0; i <= scene->schedule_count; i++) {
+        const struct scene_schedule *entry = i < scene->schedule_count ? &scene->schedule[i] : NULL;
+        const double next = entry ? fmin(entry->at, end) : end, brought = fill + pump * (next - time);
+        fill = pump > 0 ? fmax(fill, fmin(brought, until)) : fmax(brought, fmin(fill, 1));
+        most = fmax(most, fill);
+        time = next;
+        if (entry) {
+            follow(sim, b, entry, "pump", &pump);
+            follow(sim, b, entry, "pump_until", &until);
+        }
+    }
+    return most;
 }
 
 /* Whether it encloses much less than a ball of as much skin would, 36 pi V^2 < A^3: then it does not swell
@@ -118,7 +135,8 @@ void explain_bursts(struct sim *sim, FILE *stream)
         const char *what = b->gas ? "gas filling" : "pressure";
         double stretch = 1;
         const bool uneven = is_uneven(sim, b);
-        const double need = needed(sim, b, &stretch), most = given(sim, b);
+        const double need = needed(sim, b, &stretch),
+                     most = b->gas ? largest_filling(sim, b) : largest_pressure(sim, b);
         fprintf(stream, "%s\tburst\tballoons[%zu]: ", most >= need ? "on" : "off",
                 (size_t)(b - sim->balloons));
         if (isinf(need))

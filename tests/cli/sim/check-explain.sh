@@ -36,7 +36,15 @@ expect 0 balloon-sim pricked.cfg --explain
 stays
 stdout_has 'evenly to a stretch of 2\.[23]'
 expect 0 balloon-sim overblown.cfg --explain
-stdout_has '^on	burst	balloons\[0\]: gas filling 30 may'
+stdout_has '^on	burst	balloons\[0\]: gas filling 19 may' # by the end, though the pump would go on to 30
+
+# what the pump or the schedule would bring after the end, or past an open neck, bursts nothing
+expect 0 balloon-sim overblown.cfg --explain --set time.end=1
+stdout_has '^off	burst	balloons\[0\]: gas filling [0-9.]+ is too low to burst it by itself'
+expect 0 balloon-sim overblown.cfg --explain --set balloons[0].gas.neck=1 --set balloons[0].gas.neck_at=1
+stdout_has '^off	burst	balloons\[0\]: gas filling [0-9.]+ is too low to burst it by itself'
+expect 0 balloon-sim sphere.cfg --explain --set 'balloons[0].pressure=4' --set 'schedule[0].at=20' --set 'schedule[0].pressure=50'
+stays
 
 # What is far from round swells unevenly: the fox's belly tears at a fifth of the filling that would do if it were stretched all alike.
 says_uneven='and nothing is lost; this shape swells unevenly, and may tear long before\)$'
