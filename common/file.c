@@ -15,6 +15,7 @@ struct file_out {
     FILE *stream;
     char *target;    /* the file to be replaced, links resolved */
     char *temporary; /* NULL where the target is written in place */
+    bool nameless;   /* there is no file of that name yet: it is a pattern */
 };
 
 /* What has no size beforehand, a pipe mostly, need not end either. */
@@ -115,20 +116,84 @@ static mode_t new_file_mode(const struct stat *old, bool exists)
     return 0666 & ~mask;
 }
 
+/* The folder that a path leads into; free() it. NULL when memory is not enough. */
+static char *folder_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return !slash ? strdup(".") : strndup(path, slash == path ? 1 : (size_t)(slash - path));
+}
+
+/* The name by which a file that has none can be linked. */
+static void name_by_descriptor(int descriptor, char name[40])
+{
+    snprintf(name, 40, "/proc/self/fd/%d", descriptor);
+}
+
+/* Opens a file without a name in a folder, which is gone with the program however that ends. -1 with errno
+ * where it fails; EOPNOTSUPP where there are none (some file systems), or they could not be given a name (no
+ * /proc). */
+static int open_nameless(const char *folder)
+{
+    char name[40];
+    int descriptor = open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+    if (descriptor < 0) {
+        if (errno == EISDIR || errno == EINVAL) /* what a kernel answers that does not know the flag */
+            errno = EOPNOTSUPP;
+        return -1;
+    }
+    name_by_descriptor(descriptor, name);
+    if (access(name, F_OK)) {
+        close(descriptor);
+        errno = EOPNOTSUPP;
+        return -1;
+    }
+    return descriptor;
+}
+
+/* Gives what has no name the first free one of its pattern. */
+static bool give_name(struct file_out *out)
+{
+    char name[40], *end = out->temporary + strlen(out->temporary) - 6;
+    name_by_descriptor(fileno(out->stream), name);
+    unsigned number = (unsigned)getpid();
+    do {
+        snprintf(end, 7, "%06x", number++ & 0xffffffU);
+        out->nameless = linkat(AT_FDCWD, name, AT_FDCWD, out->temporary, AT_SYMLINK_FOLLOW) != 0;
+    } while (out->nameless && errno == EEXIST);
+    return !out->nameless;
+}
+
+/* Opens what is written first; -1 with errno where it fails. A name that is too long is refused now, not when
+ * the work is done. */
+static int open_first(struct file_out *out, const char *folder)
+{
+    struct stat info;
+    if (lstat(out->temporary, &info) && errno == ENAMETOOLONG)
+        return -1;
+    int descriptor = open_nameless(folder);
+    if (descriptor < 0 && errno == EOPNOTSUPP) {
+        descriptor = mkostemp(out->temporary, O_CLOEXEC);
+        out->nameless = descriptor < 0;
+    }
+    return descriptor;
+}
+
 static enum status open_temporary(struct file_out *out, mode_t mode, struct error *err)
 {
     size_t length = strlen(out->target);
+    char *folder = folder_of(out->target);
     out->temporary = malloc(length + sizeof ".XXXXXX");
-    if (!out->temporary)
+    out->nameless = true;
+    if (!out->temporary || !folder) {
+        free(folder);
         return error_no_memory(err, out->target);
+    }
     memcpy(out->temporary, out->target, length);
     memcpy(out->temporary + length, ".XXXXXX", sizeof ".XXXXXX");
-    int descriptor = mkostemp(out->temporary, O_CLOEXEC);
-    if (descriptor < 0) {
-        free(out->temporary);
-        out->temporary = NULL;
+    int descriptor = open_first(out, folder);
+    free(folder);
+    if (descriptor < 0)
         return error_set_errno(err, out->target, "create");
-    }
     fchmod(descriptor, mode);
     out->stream = fdopen(descriptor, "wb");
     if (!out->stream) {
@@ -191,8 +256,7 @@ FILE *file_out_stream(struct file_out *out)
 /* Makes the renamed entry durable. A folder that cannot be synced (some file systems) is no failure. */
 static void sync_folder_of(const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    char *folder = !slash ? strdup(".") : strndup(path, slash == path ? 1 : (size_t)(slash - path));
+    char *folder = folder_of(path);
     int descriptor = folder ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
     if (descriptor >= 0) {
         fsync(descriptor);
@@ -209,6 +273,8 @@ enum status file_out_commit(struct file_out *out, struct error *err)
         wrote = !fsync(fileno(out->stream));
     if (!wrote)
         status = error_set_errno(err, out->target, "write");
+    else if (out->nameless && !give_name(out))
+        status = error_set_errno(err, out->target, "replace");
     FILE *stream = out->stream;
     out->stream = NULL;
     if (fclose(stream) && !status)
@@ -232,7 +298,7 @@ void file_out_abandon(struct file_out *out)
         return;
     if (out->stream)
         fclose(out->stream);
-    if (out->temporary)
+    if (out->temporary && !out->nameless)
         unlink(out->temporary);
     free(out->temporary);
     free(out->target);

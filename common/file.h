@@ -8,9 +8,10 @@
  *     return file_out_commit(out, err);        or file_out_abandon(out)
  *
  * The bytes go to a temporary file in the same folder; commit flushes, syncs and renames it over the target,
- * so the file that was there stays whole until the new one is. A target that is no regular file (/dev/stdout,
- * /dev/full, a pipe) is written in place. A symbolic link is followed, not replaced; one that leads
- * nowhere is refused.
+ * so the file that was there stays whole until the new one is. Until then it has no name, where the file
+ * system knows such files, and is gone when the program is killed; elsewhere NAME.XXXXXX is left then. A
+ * target that is no regular file (/dev/stdout, /dev/full, a pipe) is written in place. A symbolic link is
+ * followed, not replaced; one that leads nowhere is refused.
  */
 #ifndef COMMON_FILE_H
 #define COMMON_FILE_H

@@ -43,7 +43,8 @@ static enum status save_plot(struct error *err)
     return plot_save(&(struct plot){.panels = &panel, .panel_count = 1, .columns = 1}, "a.svg", err);
 }
 
-/* The script for gnuplot is kept in memory, so that a failure there says that memory ended. */
+/* The script for gnuplot is kept in memory, so that a failure there says that memory ended. What
+ * is written has no name at first, or a temporary one where the file system knows no others. */
 static void a_plot_is_saved_whole_or_the_old_one_stays(void **state)
 {
     (void)state;
@@ -52,15 +53,15 @@ static void a_plot_is_saved_whole_or_the_old_one_stays(void **state)
     write_text("gnuplot", "#!/bin/sh\necho drawn\n");
     assert_int_equal(chmod("gnuplot", 0755), 0);
     setenv("PATH", test_folder, 1);
-    for (int i = 0; i < 2; i++)
-        for (struct fault fault = {.kinds = fault_kinds[i]}; fault_next(&fault);) {
+    for (int i = 0; i < 4; i++)
+        for (struct fault fault = {.kinds = fault_kinds[i % 2], .all_named = i >= 2}; fault_next(&fault);) {
             struct error err = {0};
             write_bytes("a.svg", old.data, old.size);
             fault_begin(&fault);
             const enum status status = save_plot(&err);
             fault_end(&fault);
             assert_true(fault.failed || !status);
-            assert_true(!status || status == STATUS_NO_MEMORY || (i == 1 && status == STATUS_FILE));
+            assert_true(!status || status == STATUS_NO_MEMORY || (i % 2 == 1 && status == STATUS_FILE));
             assert_true(!status || strstr(err.text, "a.svg"));
             assert_holds("a.svg", status ? &old : &drawn);
             assert_int_equal(files_here(), 2);

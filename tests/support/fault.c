@@ -13,7 +13,7 @@
 static struct {
     atomic_uint kinds; /* 0: nothing fails */
     atomic_long left;  /* calls up to the one that fails, itself included */
-    atomic_bool lasting;
+    atomic_bool lasting, all_named;
     _Atomic(const char *) failed;
 } now;
 
@@ -33,6 +33,7 @@ void fault_begin(struct fault *fault)
 {
     now.left = fault->number;
     now.lasting = fault->lasting;
+    now.all_named = fault->all_named;
     now.failed = NULL;
     now.kinds = fault->kinds;
 }
@@ -108,6 +109,10 @@ int __wrap_open64(const char *path, int flags, ...)
     va_start(rest, flags);
     const mode_t mode = flags & O_CREAT ? va_arg(rest, mode_t) : 0;
     va_end(rest);
+    if (now.kinds && now.all_named && (flags & O_TMPFILE) == O_TMPFILE) {
+        errno = EOPNOTSUPP;
+        return -1;
+    }
     return fails(FAULT_FILES, "open64") ? -1 : __real_open64(path, flags, mode);
 }
 

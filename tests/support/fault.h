@@ -31,6 +31,7 @@ struct fault {
     unsigned kinds;     /* of calls that may fail */
     long number;        /* of the call that fails, from 1 on */
     bool lasting;       /* all calls after it fail too */
+    bool all_named;     /* the file system knows no files without a name (O_TMPFILE) */
     const char *failed; /* the function that did first */
 };
 

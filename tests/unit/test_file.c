@@ -3,7 +3,9 @@
 #include "common/file.h"
 
 #include <dirent.h>
+#include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -81,6 +83,41 @@ static void an_abandoned_file_leaves_the_old_one_and_nothing_else(void **state)
     file_out_abandon(out);
     assert_contents("a", "old");
     assert_int_equal(entries_here(), 1);
+}
+
+/* However it is killed; where the file system knows no files without a name there is one that is left. */
+static void a_program_that_is_killed_leaves_nothing_else(void **state)
+{
+    (void)state;
+    write_text("a", "old");
+    const int trial = open(".", O_TMPFILE | O_WRONLY, 0600), before = entries_here();
+    if (trial < 0)
+        print_message("# %s: no files without a name here: %s\n", __func__, strerror(errno));
+    close(trial);
+    const pid_t writer = fork();
+    if (writer == 0) {
+        struct error err = {0};
+        struct file_out *out;
+        if (!file_out_open("a", &out, &err)) {
+            fputs("half", file_out_stream(out));
+            fflush(file_out_stream(out));
+        }
+        raise(SIGKILL);
+    }
+    assert_int_equal(waitpid(writer, NULL, 0), writer);
+    assert_contents("a", "old");
+    assert_int_equal(entries_here(), before + (trial < 0));
+}
+
+/* Before the work, not behind it: the temporary file's name is longer. */
+static void a_name_that_is_too_long_is_refused_at_once(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct file_out *out;
+    char name[256] = "";
+    memset(name, 'n', 250);
+    assert_refused(file_out_open(name, &out, &err), STATUS_FILE, "cannot create: File name too long", &err);
 }
 
 static void a_link_is_followed_not_replaced(void **state)
@@ -273,6 +310,8 @@ int main(void)
         cmocka_unit_test(no_file_is_written_twice_or_read_too),
         cmocka_unit_test(a_committed_file_replaces_the_old_one),
         cmocka_unit_test(an_abandoned_file_leaves_the_old_one_and_nothing_else),
+        cmocka_unit_test(a_program_that_is_killed_leaves_nothing_else),
+        cmocka_unit_test(a_name_that_is_too_long_is_refused_at_once),
         cmocka_unit_test(a_link_is_followed_not_replaced),
         cmocka_unit_test(a_full_disk_is_reported),
         cmocka_unit_test(a_pipe_is_read_to_its_end),
