@@ -58,6 +58,9 @@ enum status mesh_from_soup(const double (*corner)[3], size_t triangle_count, str
  * past 2^32 / 3 triangles. */
 enum status mesh_connect(struct mesh *mesh, struct error *err);
 
+/* Gives the edges up, as before mesh_connect(). */
+void mesh_disconnect(struct mesh *mesh);
+
 /* Renumbers the points of a connected mesh by a walk in breadth, and the triangles by their lowest point, so
  * that what is near in space is near in memory: a step over a large mesh in random order takes several times
  * as long. Corners keep their order; the mesh is connected anew. O(n). Errors: STATUS_NO_MEMORY; the mesh is

@@ -107,8 +107,7 @@ enum status mesh_connect(struct mesh *mesh, struct error *err)
         edge = array_new(edge_count, sizeof *edge);
         if (edge) {
             list_edges(mesh, side_edge, edge);
-            free(mesh->edge);
-            free(mesh->triangle_edge);
+            mesh_disconnect(mesh);
             mesh->edge = edge;
             mesh->edge_count = edge_count;
             mesh->triangle_edge = (uint32_t(*)[3])side_edge;
@@ -121,4 +120,13 @@ enum status mesh_connect(struct mesh *mesh, struct error *err)
         return error_no_memory(err, "the edges");
     }
     return STATUS_OK;
+}
+
+void mesh_disconnect(struct mesh *mesh)
+{
+    free(mesh->edge);
+    free(mesh->triangle_edge);
+    mesh->edge = NULL;
+    mesh->triangle_edge = NULL;
+    mesh->edge_count = 0;
 }

@@ -116,6 +116,7 @@ static void renumber(struct mesh *mesh, const struct graph *graph, uint32_t *ord
             mesh->triangle[t][k] = number[mesh->triangle[t][k]];
     sort_triangles(mesh, number, order);
     move_rows(mesh->triangle, sizeof *mesh->triangle, order, mesh->triangle_count, room);
+    mesh_disconnect(mesh); /* edges of the points as they were */
 }
 
 enum status mesh_order(struct mesh *mesh, struct error *err)

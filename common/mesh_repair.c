@@ -14,9 +14,10 @@ static enum status check_values(const struct mesh *mesh, struct error *err)
         return error_set(err, STATUS_INPUT, "the mesh has no triangles");
     for (uint32_t p = 0; p < mesh->point_count; p++) {
         for (int i = 0; i < 3; i++) {
-            if (!(fabs(mesh->position[p][i]) <= MESH_COORDINATE_MAX))
+            const double at = mesh->position[p][i];
+            if (!(fabs(at) <= MESH_COORDINATE_MAX))
                 return error_set(err, STATUS_INPUT, "%c of point %u is %g; must be a number of at most %g",
-                                 "xyz"[i], p, mesh -> position[p][i], MESH_COORDINATE_MAX);
+                                 "xyz"[i], p, at, MESH_COORDINATE_MAX);
         }
     }
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
@@ -158,11 +159,7 @@ enum status mesh_repair(struct mesh *mesh, struct mesh_report *report, struct er
     enum status status = check_values(mesh, err);
     if (status)
         return status;
-    free(mesh->edge); /* of the mesh as it was */
-    free(mesh->triangle_edge);
-    mesh->edge = NULL;
-    mesh->triangle_edge = NULL;
-    mesh->edge_count = 0;
+    mesh_disconnect(mesh); /* edges of the mesh as it was */
     status = drop_all(mesh, report, err);
     if (!status && mesh->triangle_count == 0)
         status = error_set(err, STATUS_INPUT, "every triangle of the mesh is flat: it has no area");

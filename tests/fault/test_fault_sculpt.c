@@ -141,6 +141,27 @@ static enum status load_mesh(const char *path, struct octree *tree, struct error
     return voxelise_load(path, 4, tree, &report, err);
 }
 
+/* Edges that are there belong to the points as they are numbered. */
+static void a_mesh_that_cannot_be_put_in_order_has_no_wrong_edges(void **state)
+{
+    (void)state;
+    for (struct fault fault = {.kinds = FAULT_MEMORY}; fault_next(&fault);) {
+        struct error err = {0};
+        struct mesh mesh = {0}, before = {0};
+        shape_icosphere(1, &mesh);
+        shape_icosphere(1, &before);
+        assert_ok(mesh_connect(&mesh, &err), &err);
+        fault_begin(&fault);
+        const enum status status = mesh_order(&mesh, &err);
+        fault_end(&fault);
+        assert_says(status, &err, fault.kinds);
+        if (status && mesh.edge)
+            assert_memory_equal(mesh.position, before.position, mesh.point_count * sizeof *mesh.position);
+        mesh_clear(&before);
+        mesh_clear(&mesh);
+    }
+}
+
 /* An open mesh, so that the solid angles are asked too. */
 static void a_mesh_that_cannot_be_voxelised_leaves_the_old_tree(void **state)
 {
@@ -172,6 +193,7 @@ int main(void)
         cmocka_unit_test(scripts_and_models_are_saved_whole_or_not_at_all),
         cmocka_unit_test(meshes_are_saved_whole_or_not_at_all),
         cmocka_unit_test(a_model_that_cannot_be_loaded_leaves_the_old_tree),
+        cmocka_unit_test(a_mesh_that_cannot_be_put_in_order_has_no_wrong_edges),
         cmocka_unit_test(a_mesh_that_cannot_be_voxelised_leaves_the_old_tree),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
