@@ -92,9 +92,9 @@ static enum status want_corner(struct text *text, struct soup *soup, struct erro
     if (!status)
         status = want_numbers(text, soup->items[soup->count], err);
     for (int i = 0; i < 3 && !status; i++) {
-        if (!isfinite(soup->items[soup->count][i]))
-            status = text_fail(text, err, "%c is %g; must be finite", "xyz"[i],
-                               soup -> items[soup->count][i]);
+        const double at = soup->items[soup->count][i];
+        if (!isfinite(at))
+            status = text_fail(text, err, "%c is %g; must be finite", "xyz"[i], at);
     }
     soup->count += !status;
     return status;

@@ -98,12 +98,14 @@ static enum status read_voxels(struct vox_scene *scene, struct chunk *chunk, str
     model->voxels = chunk->contents.at;
     model->count = (uint32_t)count;
     for (size_t i = 0; i < count; i++)
-        for (int k = 0; k < 3; k++)
-            if (model->voxels[4 * i + k] >= model->size[k])
+        for (int k = 0; k < 3; k++) {
+            const int at = model->voxels[4 * i + (size_t)k], side = model->size[k];
+            if (at >= side)
                 return error_set(
                     err, STATUS_INPUT,
                     "chunk XYZI at byte %zu: voxel %zu has %c = %d in a model of %d cells along %c",
-                    chunk->place, i, "xyz"[k], model -> voxels[4 * i + k], model -> size[k], "xyz"[k]);
+                    chunk->place, i, "xyz"[k], at, side, "xyz"[k]);
+        }
     return STATUS_OK;
 }
 
