@@ -62,7 +62,7 @@ void scene_write_help(FILE *stream)
         "  time     = { step = 0.025; end = 10.0; };\n"
         "  balloons = ( { mesh = \"sphere.ply\"; pressure = 10.0; rip = { at = 1.0; }; } );\n"
         "  schedule = ( { at = 1.0; pressure = 12.0; } );\n\n"
-        "All but the mesh have defaults, the paper's where it gives one. An effect's block (those inside balloons[])\n"
+        "All but the mesh have defaults, the paper's where it gives one. An effect's block (gas, gravity, contact, ...)\n"
         "calls for the effect; without the block there is none. --set takes a key by its path:\n"
         "--set balloons[0].rip.at=1 --set view.stereo=crossed\n",
         stream);

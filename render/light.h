@@ -41,8 +41,8 @@ struct light {
     bool lists;                          /* this OpenGL has storage buffers */
 };
 
-/* What draws the translucent triangles: all of them, with the shaders of one way. `taken`: the texture unit's
- * distances that a layer has to be before (peeled); `width`, `room`: of the lists. */
+/* What draws the translucent triangles: all of them, with the shaders of one way. `width`, `room`: of the
+ * lists. */
 enum light_way { LIGHT_BLENDED, LIGHT_PEELING, LIGHT_LISTED, LIGHT_WAYS };
 struct light_pass {
     enum light_way way;

@@ -14,8 +14,8 @@ struct render_line {
     bool on_top;     /* seen through everything; else hidden by what lies before it */
 };
 
-/* Text in ASCII; '\n' begins a new line; what is not printable shows as a box. In stereo each eye's picture
- * carries it at the same place. */
+/* Text in UTF-8, of the letters that font.h has; '\n' begins a new line, and what is none of them shows as a
+ * box. In stereo each eye's picture carries it at the same place. */
 struct render_text {
     const char *text;
     int x, y;        /* upper left corner (of the box, if any), from that of one eye's picture, in pixels */

@@ -56,7 +56,7 @@ enum render_style {
 /* In which order translucent triangles lie over one another. */
 enum render_order {
     RENDER_NONE, /* as they come */
-    RENDER_SORT, /* back to front by their centroids: wrong where triangles overlap in depth */
+    RENDER_SORT, /* back to front, each by one distance (order.h): wrong where triangles overlap in depth */
     RENDER_PEEL, /* exact: layer by layer, as many times over as layers lie over one another */
     RENDER_LIST, /* exact: a list for each pixel; peeled where OpenGL has no storage buffers (4.3) */
 };

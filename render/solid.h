@@ -31,7 +31,7 @@ struct render_face {
 enum status render_solid_new(struct render *render, const double origin[3], double cell,
                              struct render_solid **solid, struct error *err);
 
-/* Makes these the faces of the block with this key (any number; octree_key() or an index will do); with count
+/* Makes these the faces of the block with this key (any number); with count
  * 0 the block is gone. The faces are copied. Corner + size must not pass 65535. Errors: STATUS_RANGE naming
  * the face, STATUS_NO_MEMORY; then the block is as it was. */
 enum status render_solid_set(struct render_solid *solid, uint64_t block, const struct render_face *faces,

@@ -8,10 +8,11 @@
  * Every cell's centre looks along the six axes and counts, with their sense, the triangles on its way out. A
  * closed mesh gives six times its winding number, however often it overlaps itself, and has inside what that
  * is not 0 for: parts that are inside out too (the ray crossings of Nooruddin and Turk, "Simplification and
- * repair of polygonal models using volumetric techniques", IEEE TVCG 9, 2003, counted with their sense). Holes make the six differ: where at least five say "inside", or all
- * "outside", a cell is decided; for the others the solid angle under which the whole mesh is seen decides,
- * the generalised winding number of Jacobson, Kavan and Sorkine-Hornung, "Robust inside-outside segmentation
- * using generalized winding numbers", SIGGRAPH 2013: inside above 1/2. It is summed over a tree of triangles,
+ * repair of polygonal models using volumetric techniques", IEEE TVCG 9, 2003, counted with their sense). Holes
+ * make the six differ: where at least five say "inside", or all "outside", a cell is decided; for the
+ * others the solid angle under which the whole mesh is seen decides, the generalised winding number of
+ * Jacobson, Kavan and Sorkine-Hornung, "Robust inside-outside segmentation using generalized winding
+ * numbers", SIGGRAPH 2013: inside above 1/2. It is summed over a tree of triangles,
  * far ones as one, after Barill et al., "Fast winding numbers for soups and clouds", SIGGRAPH 2018.
  */
 #ifndef SCULPT_VOXELISE_H

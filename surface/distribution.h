@@ -7,8 +7,8 @@
  * He_(k+1) = u He_k - k He_(k-1) (Abramowitz and Stegun, Handbook of Mathematical Functions, 26.2.28 and
  * 22.7.14). Nodes lie 1/16 apart, so u is within 1/32 of one, and the 8 terms kept leave out at most |P^(8)|
  * / 8! / 32^8. By Cramer's bound (22.14.17) |He_7(u)| exp(-u^2/4) <= 1.09 sqrt(7!) = 78, so |P^(8)| <= 31 /
- * m and the error is below 7.1e-16 for R >= 2, as small as the rounding of the sum. The slope's is below 8 x
- * 32 times that: 1.8e-13.
+ * m and the error is below 7.3e-16 for R >= 2, as small as the rounding of the sum. The slope's is below 8 x
+ * 32 times that: 1.9e-13.
  */
 #ifndef SURFACE_DISTRIBUTION_H
 #define SURFACE_DISTRIBUTION_H

@@ -52,7 +52,7 @@ enum { FIELDS_EXACT = -1, FIELDS_SIDE_MAX = 16 };
 struct field_settings {
     long fields_per_cube;   /* FIELDS_EXACT, 0, or n^3 with n from 1 to FIELDS_SIDE_MAX */
     double fields_per_area; /* A, 0 .. 1e7; 0: none */
-    double sigma;           /* s, at least 0.01 */
+    double sigma;           /* s, 0.01 .. 1e5 */
     double cutoff;          /* R, in s: 2 .. 8 */
 };
 
