@@ -29,20 +29,52 @@ static enum status lock(int file, int how, const char *path, struct error *err)
                      "%s: another balloon-sculpt is carving this sculpture; close it first", path);
 }
 
-enum status journal_is_left(const char *path, bool *left, struct error *err)
+enum status journal_is_there(const char *path, bool *there, struct error *err)
 {
     char *name = journal_path(path, JOURNAL_SUFFIX);
     if (!name)
         return error_no_memory(err, "a journal");
     enum status status = STATUS_OK;
     int file = open(name, O_RDONLY | O_CLOEXEC);
-    *left = file >= 0;
+    *there = file >= 0;
     if (file >= 0) {
         status = lock(file, LOCK_SH, path, err);
         close(file);
     } else if (errno != ENOENT && errno != ENOTDIR) {
         status = error_set_errno(err, name, "open");
     }
+    free(name);
+    return status;
+}
+
+/* Whether a journal has its first line alone, and what it begins from is still what the sculpture is: nothing
+ * was done to that. */
+static bool is_idle(const struct bytes *journal, const struct journal_text *text, const char *path)
+{
+    struct bytes file = {0};
+    struct error ignored;
+    if (!text->begun || journal->size != text->first_end)
+        return false;
+    if (text->start.is_cube)
+        return access(path, F_OK) != 0;
+    const bool same = !file_read(path, &file, &ignored) && journal_hash(&file) == text->start.hash;
+    bytes_clear(&file);
+    return same;
+}
+
+enum status journal_is_left(const char *path, bool *left, struct error *err)
+{
+    struct bytes file = {0};
+    struct journal_text text;
+    struct error ignored;
+    enum status status = journal_is_there(path, left, err);
+    if (status || !*left)
+        return status;
+    char *name = journal_path(path, JOURNAL_SUFFIX);
+    status = name ? file_read(name, &file, err) : error_no_memory(err, "a journal");
+    if (!status && !journal_text_read(&file, &text, &ignored))
+        *left = !is_idle(&file, &text, path);
+    bytes_clear(&file);
     free(name);
     return status;
 }
@@ -211,10 +243,11 @@ static enum status open_file(struct journal *journal, const char *path, const st
         return status;
     }
     status = journal_text_read(&file, &text, err);
+    const bool other_cube = !status && text.start.is_cube && is_idle(&file, &text, path); /* than *tree */
     bytes_clear(&file);
     if (status)
         return err ? error_prefix(err, journal->path) : status;
-    if (text.begun)
+    if (text.begun && !other_cube)
         return go_on(journal, &text, err);
     status = begin(journal, path, tree, err);
     if (status) {
@@ -325,11 +358,11 @@ void journal_close(struct journal *journal, bool discard)
 
 enum status journal_remove(const char *path, struct error *err)
 {
-    bool left;
+    bool there;
     char *name = journal_path(path, JOURNAL_SUFFIX), *base = journal_path(path, JOURNAL_BASE_SUFFIX);
-    enum status status = name && base ? journal_is_left(path, &left, err)
+    enum status status = name && base ? journal_is_there(path, &there, err)
                                       : error_no_memory(err, "the journal");
-    if (!status && left) {
+    if (!status && there) {
         if (unlink(name))
             status = error_set_errno(err, name, "remove");
         unlink(base);

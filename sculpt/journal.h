@@ -26,9 +26,13 @@
 
 struct journal;
 
-/* Sets *left when the sculpture has a journal that nobody is writing: its program was killed. Errors:
- * STATUS_RESOURCE when another program has it open, STATUS_FILE. */
+/* Sets *left when the sculpture has a journal with work in it that nobody is writing: its program was killed.
+ * One that has none in it, and whose sculpture is what it began from, is as good as none. Errors:
+ * STATUS_RESOURCE when another program has it open, STATUS_FILE, STATUS_NO_MEMORY. */
 enum status journal_is_left(const char *path, bool *left, struct error *err);
+
+/* The same of any journal, with work in it or not. */
+enum status journal_is_there(const char *path, bool *there, struct error *err);
 
 struct journal_report {
     size_t operations; /* whole ones: steps, undo and redo count too */

@@ -189,7 +189,7 @@ static enum status recovery_init(struct recovery *recovery, const char *path, st
                                   .base = journal_path(path, JOURNAL_BASE_SUFFIX)};
     if (!recovery->name || !recovery->base)
         return error_no_memory(err, "the journal");
-    enum status status = journal_is_left(path, &left, err);
+    enum status status = journal_is_there(path, &left, err);
     if (!status && !left)
         return error_set(err, STATUS_FILE, "%s: has no journal, so no work on it was lost", path);
     return status;

@@ -116,6 +116,34 @@ static void the_sculpture_may_be_damaged_or_gone(void **state)
     assert_true(assert_recovers(ONE).unsaved);
 }
 
+/* A look at a sculpture, then a kill: there is nothing to be recovered, and who looks again gets a journal
+ * that begins from what is there then. */
+static void a_journal_without_work_is_as_good_as_none(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    bool left;
+    for (int with_file = 0; with_file < 2; with_file++) {
+        leave_nothing();
+        if (with_file)
+            save_carved(ONE, "a.oct");
+        journal_close(begin(), false);
+        assert_ok(journal_is_left("a.oct", &left, &err), &err);
+        assert_false(left);
+        struct octree tree = with_file ? (struct octree){0} : new_tree(2, 5);
+        struct journal *journal = NULL;
+        assert_ok(journal_open("a.oct", &tree, &journal, &err), &err);
+        journal_close(journal, false);
+        struct journal_report report;
+        assert_ok(journal_recover("a.oct", &tree, NULL, &report, &err), &err);
+        assert_int_equal(tree.depth, with_file ? 4 : 2);
+        octree_clear(&tree);
+        save_carved(TWO, "a.oct"); /* what it began from is in the journal alone */
+        assert_ok(journal_is_left("a.oct", &left, &err), &err);
+        assert_true(left);
+    }
+}
+
 static void another_version_of_the_sculpture_is_refused(void **state)
 {
     (void)state;
@@ -343,6 +371,7 @@ int main(void)
         cmocka_unit_test(the_chip_log_goes_on_through_a_recovery),
         cmocka_unit_test(a_save_that_did_not_happen_loses_nothing),
         cmocka_unit_test(the_sculpture_may_be_damaged_or_gone),
+        cmocka_unit_test(a_journal_without_work_is_as_good_as_none),
         cmocka_unit_test(another_version_of_the_sculpture_is_refused),
         cmocka_unit_test(only_one_program_writes),
         cmocka_unit_test(a_journal_that_is_closed_for_good_leaves_no_file),
