@@ -212,7 +212,8 @@ enum status contact_finder_end(const struct contact_finder *f, struct error *err
     return error_set(
         err, STATUS_RANGE,
         "%s: contact at time %g: %u pairs of points, edges and triangles are near each other, and there is "
-        "room for %u; contact.thickness = %g is too much for edges of this length, or the skin is crushed",
+        "room for %u; skin that is flung together is slowed by drag, more viscosity of a membrane or more "
+        "damping of springs; or contact.thickness = %g is too much for edges of this length",
         sim->scene->path, sim->time, near, c->pair_capacity, c->thickness);
 }
 

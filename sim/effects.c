@@ -188,12 +188,13 @@ void effects_run(struct sim *sim, enum effect_phase phase)
         sim->ledger.account.let_go += held - held_as_a_whole(sim, false);
 }
 
-/* What turns points back does so at a step's end, which no method's estimate of its error sees. */
+/* What turns points back does so at a step's end, which no method's estimate of its error sees. Once skin has
+ * broken no run is another to any tolerance. */
 static void note_met(struct sim *sim, const char *effect)
 {
     const struct integrator *method = sim->integrator;
     sim->met = sim->time;
-    if (method->choose || method->flags & INTEGRATOR_ADAPTIVE)
+    if (!sim->broken && (method->choose || method->flags & INTEGRATOR_ADAPTIVE))
         sim_tell(sim, sim->balloons, effect,
                  "turns points back, at the ends of steps: that error goes with the step, not with "
                  "time.tolerance (--estimate tells it)");

@@ -290,15 +290,18 @@ static void test_a_hit_is_told_once_where_a_tolerance_does_not_reach_it(void **s
 {
     (void)state;
     static const struct {
-        const char *integrator;
+        const char *integrator, *rip;
         int times;
-    } cases[] = {{"time.integrator=rk-adaptive", 1}, {"time.integrator=auto", 1}, {"time.integrator=rk4", 0}};
+    } cases[] = {{"time.integrator=rk-adaptive", "balloons[0].rip.at=9", 1},
+                 {"time.integrator=auto", "balloons[0].rip.at=9", 1},
+                 {"time.integrator=rk4", "balloons[0].rip.at=9", 0},
+                 {"time.integrator=rk-adaptive", "balloons[0].rip.at=0", 0}}; /* broken before */
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct balloon b;
         int told = 0;
         double first = INFINITY;
         open_balloon(&b, 2,
-                     SETTINGS(cases[i].integrator, "balloons[0].pressure=0",
+                     SETTINGS(cases[i].integrator, cases[i].rip, "balloons[0].pressure=0",
                               "gravity.acceleration=[0,-100,0]", "ground.height=-50", "time.end=0.6"));
         while (!sim_at_end(&b.sim)) {
             steps(&b, 1);
