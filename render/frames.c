@@ -220,6 +220,7 @@ enum status frames_open(const struct frames_options *options, struct frames **re
         return error_no_memory(err, "the frames");
     frames->options = *options;
     frames->sheet.counted = options->counted;
+    frames->sheet.counted_one = options->counted_one;
     pthread_mutex_init(&frames->lock, NULL);
     pthread_cond_init(&frames->change, NULL);
     if (!copy_name(&frames->folder, options->folder, NULL) ||

@@ -21,6 +21,7 @@ struct frames_options {
     const char *movie;   /* .mp4, .webm or .gif, through the program ffmpeg; or NULL */
     const char *sheet;   /* PNG of twelve moments (sheet.h); or NULL */
     const char *counted; /* what frames_count() counts for the sheet, as "edges broken", borrowed; or NULL */
+    const char *counted_one; /* the same of a single one, as "edge broken" */
     /* "left" or "right": every name ends in -left or -right, before its extension; or NULL. */
     const char *eye;
     size_t first; /* number of the first PNG */

@@ -213,14 +213,22 @@ static void draw_tile(struct image *out, const struct sheet *sheet, const struct
         memcpy(out->rgb + 3 * ((size_t)(top + y) * (size_t)out->width + (size_t)left),
                tile->rgb + 3 * (size_t)tile->width * (size_t)y, 3 * (size_t)tile->width);
     char time[64], count[128];
-    const int scale = tile->height < 120 ? 1 : 2, bottom = top + tile->height - 3 * scale;
     snprintf(time, sizeof time, fabs(moment->time) < 1e6 ? "%.*f s" : "%.*e s", decimals, moment->time);
+    const int scale = tile->height < 120 || 6 + text_width(time, 2) > tile->width ? 1 : 2;
+    const int bottom = top + tile->height - 3 * scale;
+    if (3 * scale + text_width(time, scale) > tile->width)
+        return;
     draw_text(out, left + 3 * scale, bottom, scale, time);
     if (!sheet->counted || !(moment->counted > 0))
         return;
-    const int beside = left + 6 * scale + text_width(time, scale);
-    snprintf(count, sizeof count, "%.0f %s", moment->counted, sheet->counted);
-    draw_text(out, beside, bottom, 1, count);
+    const int beside = 6 * scale + text_width(time, scale), above = (FONT_LINE + 4) * scale;
+    snprintf(count, sizeof count, "%.0f %s", moment->counted,
+             moment->counted == 1 ? sheet->counted_one : sheet->counted);
+    const int width = text_width(count, 1);
+    if (beside + width <= tile->width)
+        draw_text(out, left + beside, bottom, 1, count);
+    else if (3 * scale + width <= tile->width)
+        draw_text(out, left + 3 * scale, bottom - above, 1, count);
 }
 
 enum status sheet_draw(const struct sheet *sheet, struct image *out, struct error *err)

@@ -1,9 +1,9 @@
 /*
  * A contact sheet: twelve moments of a run on one picture, 4 x 3, evenly spaced in how much the picture
  * changes, each labelled with its time. Where something happens that is counted, three quarters of the way
- * are even in that count instead, and labels tell it.
+ * are even in that count instead, and labels tell it. What a tile is too narrow for is left out of its label.
  *
- *     struct sheet sheet = {.counted = "edges broken"};
+ *     struct sheet sheet = {.counted = "edges broken", .counted_one = "edge broken"};
  *     sheet.count_now = 17;
  *     if (sheet_add(&sheet, &image, time, err)) ...       for each picture, all of one size
  *     if (sheet_draw(&sheet, &image_out, err)) ...
@@ -29,8 +29,9 @@ struct sheet_moment {
 struct sheet {
     struct sheet_moment moments[SHEET_KEPT + 1]; /* the last is always the last picture */
     int count;
-    const char *counted; /* what is counted, borrowed; NULL: nothing */
-    double count_now;    /* of that, in the next picture; it never falls */
+    const char *counted;     /* what is counted, borrowed; NULL: nothing */
+    const char *counted_one; /* the same of a single one */
+    double count_now;        /* of that, in the next picture; it never falls */
 };
 
 /* Errors: STATUS_NO_MEMORY. */

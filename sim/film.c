@@ -52,6 +52,7 @@ static enum status open_frames(struct film *film, const struct scene *scene,
     struct frames_options own = *options;
     own.texts = film->texts;
     own.counted = "edges broken";
+    own.counted_one = "edge broken";
     own.text_count = sizeof film->texts / sizeof *film->texts;
     enum status status = STATUS_OK;
     for (int i = 0; i < (separate ? 2 : 1) && !status; i++) {

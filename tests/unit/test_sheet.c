@@ -38,7 +38,7 @@ static void most_moments_of_a_burst_are_of_what_breaks(void **state)
 {
     (void)state;
     struct error err;
-    struct sheet sheet = {.counted = "edges broken"};
+    struct sheet sheet = {.counted = "edges broken", .counted_one = "edge broken"};
     struct image image = a_picture(300, 200), out = {0};
     int chosen[SHEET_MOMENTS], breaking = 0, debris = 0;
     for (int n = 0; n < 400; n++) {
@@ -73,12 +73,50 @@ static void most_moments_of_a_burst_are_of_what_breaks(void **state)
     sheet_clear(&sheet);
 }
 
+/* The right end of the writing on the first tile of a sheet of white pictures of this size; -1 where it is
+ * beyond the tile. */
+static int caption_end(int width, int height, double count)
+{
+    struct error err;
+    struct sheet sheet = {.counted = "edges broken", .counted_one = "edge broken"};
+    struct image image = a_picture(width, height), out = {0};
+    memset(image.rgb, 255, 3 * (size_t)width * (size_t)height);
+    sheet.count_now = count;
+    for (int n = 0; n < 2; n++)
+        assert_ok(sheet_add(&sheet, &image, 1.5 * n, &err), &err);
+    assert_ok(sheet_draw(&sheet, &out, &err), &err);
+    const int tile = sheet.moments[0].image.width;
+    int end = 0;
+    for (size_t i = 0; i < (size_t)out.width * (size_t)out.height; i++) {
+        const int x = (int)(i % (size_t)out.width) - 6; /* from the tile's left border */
+        if (out.rgb[3 * i] < 250 && x < tile)
+            end = x > end ? x : end;
+        if (out.rgb[3 * i] < 250 && x >= tile && x < tile + 6)
+            end = tile + 6;
+    }
+    image_clear(&image);
+    image_clear(&out);
+    sheet_clear(&sheet);
+    return end < tile ? end : -1;
+}
+
+/* In small and narrow pictures, as of films for telephones, the count is above the time, or left out. */
+static void captions_stay_within_their_tiles(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{60, 400}, {100, 400}, {120, 90}, {135, 240}, {1080, 1920}, {16, 16}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+        assert_true(caption_end(sizes[i][0], sizes[i][1], 1281) >= 0);
+    assert_true(caption_end(120, 90, 1281) > 100);
+    assert_int_equal(caption_end(300, 200, 2) - caption_end(300, 200, 1), 6); /* a letter: edges, edge */
+}
+
 /* All five pictures of what breaks and the one before are shown, and the others are far from each other. */
 static void few_pictures_of_what_breaks_crowd_no_others(void **state)
 {
     (void)state;
     struct error err;
-    struct sheet sheet = {.counted = "edges broken"};
+    struct sheet sheet = {.counted = "edges broken", .counted_one = "edge broken"};
     struct image image = a_picture(30, 20);
     int chosen[SHEET_MOMENTS];
     for (int n = 0; n < 45; n++) {
@@ -173,6 +211,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_sheet_shows_what_changes_evenly),
         cmocka_unit_test(most_moments_of_a_burst_are_of_what_breaks),
+        cmocka_unit_test(captions_stay_within_their_tiles),
         cmocka_unit_test(few_pictures_of_what_breaks_crowd_no_others),
         cmocka_unit_test(a_still_run_is_spaced_evenly_in_time),
         cmocka_unit_test(times_are_written_so_that_each_is_told_from_the_next),
