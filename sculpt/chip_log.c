@@ -89,7 +89,7 @@ enum status chip_log_holds(const struct bytes *log, const struct octree *tree, b
     if (!status)
         status = chips_begin(&chips, tree->depth, &made, &why);
     if (!status)
-        status = chips_run(&made, &chips, NULL, &why);
+        status = chips_run(&made, &chips, &why);
     *holds = !status && octree_equal(&made, tree);
     chips_clear(&chips);
     octree_clear(&made);

@@ -98,7 +98,7 @@ static enum status replay(const struct recovery *recovery, size_t end, struct oc
     if (!status)
         chips_set_coefficients(&chips, tree);
     if (!status)
-        status = chips_run(tree, &chips, NULL, err);
+        status = chips_run(tree, &chips, err);
     chips_clear(&chips);
     return status;
 }

@@ -206,7 +206,7 @@ static enum status carve(const struct options *options, struct work *work, struc
     chips.progress = progress_update;
     progress_begin("carving", size, "chips", (double)chips.count);
     if (!status)
-        status = chips_run(&work->tree, &chips, NULL, err);
+        status = chips_run(&work->tree, &chips, err);
     progress_end();
     if (!status)
         status = keep_log(options, work, &chips, err);

@@ -1,6 +1,5 @@
 /* Doing what a script says, without what it takes back. */
 #include "common/array.h"
-#include "sculpt/history.h"
 #include "sculpt/sculpt.h"
 
 #include <stdlib.h>
@@ -69,26 +68,12 @@ static enum status run_step(struct octree *tree, const struct chips *chips, cons
     return status;
 }
 
-static enum status run_recorded(struct octree *tree, const struct chips *chips, const struct step *step,
-                                struct history *history, struct error *err)
-{
-    history_begin(history, tree);
-    enum status status = run_step(tree, chips, step, err);
-    if (status)
-        history_cancel(history, tree);
-    else
-        history_end(history, tree, NULL);
-    return status;
-}
-
-enum status chips_run(struct octree *tree, const struct chips *chips, struct history *history,
-                      struct error *err)
+enum status chips_run(struct octree *tree, const struct chips *chips, struct error *err)
 {
     struct steps steps = {0};
     enum status status = find_steps(chips, &steps, err);
     for (size_t i = 0; i < steps.done && !status; i++)
-        status = history ? run_recorded(tree, chips, &steps.items[i], history, err)
-                         : run_step(tree, chips, &steps.items[i], err);
+        status = run_step(tree, chips, &steps.items[i], err);
     free(steps.items);
     return status;
 }

@@ -5,7 +5,7 @@
  *     struct chips chips = {0};
  *     struct octree tree = {0};
  *     if (chips_load("cat.chips", &chips, err) || chips_begin(&chips, 6, &tree, err)) ...
- *     if (chips_run(&tree, &chips, NULL, err)) ...
+ *     if (chips_run(&tree, &chips, err)) ...
  *     chips_clear(&chips);
  *
  * Coordinates are those of the octree's cube [0,1]^3: x right, y up, z towards the viewer. A cell belongs to
@@ -120,14 +120,9 @@ void chips_clear(struct chips *chips);
 enum status chips_parse(const char *name, const void *text, size_t size, struct chips *chips,
                         struct error *err);
 
-struct history;
-
-/* Does all operations of a script. What it takes back for good is not done in the first place. With a
- * history (see sculpt/history.h) the steps that remain can be undone afterwards; what the script ends
- * by taking back cannot be redone. Errors: STATUS_NO_MEMORY, with the tree whole and the operations
- * before the failed one done. */
-enum status chips_run(struct octree *tree, const struct chips *chips, struct history *history,
-                      struct error *err);
+/* Does all operations of a script; what it takes back for good is not done in the first place. Errors:
+ * STATUS_NO_MEMORY, with the tree whole and the operations before the failed one done. */
+enum status chips_run(struct octree *tree, const struct chips *chips, struct error *err);
 
 /* Makes *kept (valid; it is replaced) the same script without what it takes back and without steps, undo and
  * redo: it makes an equal octree. Errors: STATUS_NO_MEMORY; then *kept is as it was. */

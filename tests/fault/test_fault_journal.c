@@ -23,7 +23,7 @@ static struct octree carved(const struct octree *start, int count)
         strcat(text, lines[i]);
     assert_ok(octree_copy(&tree, start, &err), &err);
     assert_ok(chips_parse("lines", text, strlen(text), &chips, &err), &err);
-    assert_ok(chips_run(&tree, &chips, NULL, &err), &err);
+    assert_ok(chips_run(&tree, &chips, &err), &err);
     chips_clear(&chips);
     return tree;
 }

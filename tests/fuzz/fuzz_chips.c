@@ -33,7 +33,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     chips.depth_line = 1;
     if (chips.count <= CHIPS_MAX) {
         must(chips_begin(&chips, DEPTH, &tree, &err) == STATUS_OK);
-        must(chips_run(&tree, &chips, NULL, &err) == STATUS_OK);
+        must(chips_run(&tree, &chips, &err) == STATUS_OK);
         must(chip_log_write(NULL, &chips, DEPTH, &log, &err) == STATUS_OK);
         must(chip_log_holds(&log, &tree, &holds, &err) == STATUS_OK && holds);
     }

@@ -23,7 +23,7 @@ static inline struct octree carved(const char *script)
     struct octree tree = new_tree(4, 1);
     struct chips chips = {0};
     assert_ok(chips_parse("script", script, strlen(script), &chips, &err), &err);
-    assert_ok(chips_run(&tree, &chips, NULL, &err), &err);
+    assert_ok(chips_run(&tree, &chips, &err), &err);
     chips_clear(&chips);
     return tree;
 }

@@ -9,7 +9,7 @@ static void make(const char *script, struct octree *tree)
     struct chips chips = {0};
     assert_ok(chips_parse("script", script, strlen(script), &chips, &err), &err);
     assert_ok(chips_begin(&chips, 0, tree, &err), &err);
-    assert_ok(chips_run(tree, &chips, NULL, &err), &err);
+    assert_ok(chips_run(tree, &chips, &err), &err);
     chips_clear(&chips);
 }
 

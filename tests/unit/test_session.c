@@ -40,7 +40,7 @@ static void assert_script(const char *script)
     struct octree tree = {0};
     assert_ok(chips_parse("script", script, strlen(script), &chips, &err), &err);
     assert_ok(chips_begin(&chips, 0, &tree, &err), &err);
-    assert_ok(chips_run(&tree, &chips, NULL, &err), &err);
+    assert_ok(chips_run(&tree, &chips, &err), &err);
     assert_true(octree_equal(&tree, &session.tree));
     octree_clear(&tree);
     chips_clear(&chips);

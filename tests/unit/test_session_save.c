@@ -35,7 +35,7 @@ static void make(const char *script, struct octree *tree)
     struct chips chips = {0};
     assert_ok(chips_parse("script", script, strlen(script), &chips, &err), &err);
     assert_ok(chips_begin(&chips, 0, tree, &err), &err);
-    assert_ok(chips_run(tree, &chips, NULL, &err), &err);
+    assert_ok(chips_run(tree, &chips, &err), &err);
     chips_clear(&chips);
 }
 
@@ -131,7 +131,7 @@ static void an_export_is_written_beside_carving_and_is_no_save(void **state)
     struct octree tree = {0};
     assert_ok(chips_load("out.chips", &chips, &err), &err);
     assert_ok(chips_begin(&chips, 0, &tree, &err), &err);
-    assert_ok(chips_run(&tree, &chips, NULL, &err), &err);
+    assert_ok(chips_run(&tree, &chips, &err), &err);
     assert_tree(&tree, FIRST);
     assert_string_equal(session.path, "new.oct");
     assert_true(session.unsaved);

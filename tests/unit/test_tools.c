@@ -2,7 +2,6 @@
 #include "check.h"
 #include "common/random.h"
 #include "common/vec3.h"
-#include "sculpt/history.h"
 #include "sculpt/sculpt.h"
 
 enum { SIDE_MAX = 64 };
@@ -234,13 +233,13 @@ static struct chips parse(const char *text)
     return chips;
 }
 
-static struct octree run(const char *text, struct history *history)
+static struct octree run(const char *text)
 {
     struct error err = {0};
     struct octree tree = {0};
     struct chips chips = parse(text);
     assert_ok(chips_begin(&chips, 5, &tree, &err), &err);
-    assert_ok(chips_run(&tree, &chips, history, &err), &err);
+    assert_ok(chips_run(&tree, &chips, &err), &err);
     chips_clear(&chips);
     return tree;
 }
@@ -269,32 +268,11 @@ static void undo_and_redo_in_a_script_take_back_steps(void **state)
         {"mirror xz\n" A "mirror none\n" B "undo\n", "mirror xz\n" A},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        struct octree tree = run(cases[i][0], NULL), expected = run(cases[i][1], NULL);
+        struct octree tree = run(cases[i][0]), expected = run(cases[i][1]);
         assert_true(octree_equal(&tree, &expected));
         octree_clear(&tree);
         octree_clear(&expected);
     }
-}
-
-static void a_script_run_with_a_history_can_be_undone_step_by_step(void **state)
-{
-    (void)state;
-    struct history history;
-    history_init(&history, SIZE_MAX);
-    struct octree tree = run(A "step\n" B C "step\n" D "undo\n", &history);
-    struct octree two = run(A B C, NULL), one = run(A, NULL), none = new_tree(5, 1);
-    assert_true(octree_equal(&tree, &two));
-    assert_true(history_undo(&history, &tree, NULL));
-    assert_true(octree_equal(&tree, &one));
-    assert_true(history_undo(&history, &tree, NULL));
-    assert_true(octree_equal(&tree, &none));
-    assert_false(history_undo(&history, &tree, NULL));
-    assert_true(history_redo(&history, &tree, NULL) && history_redo(&history, &tree, NULL));
-    assert_true(octree_equal(&tree, &two));
-    history_clear(&history);
-    octree_clear(&tree);
-    octree_clear(&two);
-    octree_clear(&one);
 }
 
 /* What is written reads back to the same numbers, bit by bit. */
@@ -371,7 +349,6 @@ int main(void)
         cmocka_unit_test(the_image_of_a_chip_is_the_chip_mirrored_by_hand),
         cmocka_unit_test(a_mirrored_chip_is_the_chip_and_all_its_images),
         cmocka_unit_test(undo_and_redo_in_a_script_take_back_steps),
-        cmocka_unit_test(a_script_run_with_a_history_can_be_undone_step_by_step),
         cmocka_unit_test(written_operations_read_back_the_same),
         cmocka_unit_test(wrong_lines_of_the_tools_are_named),
     };
