@@ -291,12 +291,6 @@ void window_title(struct window *window, const char *title)
     glutSetWindowTitle(title);
 }
 
-void window_size(const struct window *window, int *width, int *height)
-{
-    *width = window->width;
-    *height = window->height;
-}
-
 bool window_has_quad(const struct window *window)
 {
     return window->quad;

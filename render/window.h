@@ -89,7 +89,6 @@ void window_redraw(struct window *window);
 void window_timer(struct window *window, int milliseconds);
 
 void window_title(struct window *window, const char *title);
-void window_size(const struct window *window, int *width, int *height);
 
 /* True where each eye has a buffer of its own to show, in turn: quad-buffered stereo
  * (render.h: RENDER_QUAD). */

@@ -141,11 +141,6 @@ enum status session_export_begin(struct session *session, const char *path, stru
  * when nothing was begun. */
 bool session_write_ended(struct session *session, bool wait, enum status *status, struct error *err);
 
-/* Both in one, under session->path or another name. */
-enum status session_save(struct session *session, struct bytes *preview, struct error *err);
-enum status session_save_as(struct session *session, const char *path, struct bytes *preview,
-                            struct error *err);
-
 /* Hands over, and forgets, where cells changed. */
 void session_take_changes(struct session *session, struct octree_regions *regions);
 

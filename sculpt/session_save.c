@@ -179,17 +179,3 @@ bool session_write_ended(struct session *session, bool wait, enum status *status
     save_free(save);
     return true;
 }
-
-enum status session_save(struct session *session, struct bytes *preview, struct error *err)
-{
-    return session_save_as(session, NULL, preview, err);
-}
-
-enum status session_save_as(struct session *session, const char *path, struct bytes *preview,
-                            struct error *err)
-{
-    enum status status = session_save_begin(session, path, preview, err);
-    if (!status)
-        (void)session_write_ended(session, true, &status, err);
-    return status;
-}

@@ -203,12 +203,6 @@ static void wheel(void *self, int steps, int x, int y, int modifiers)
     window_redraw(app->window);
 }
 
-/* The process ends a moment later, or not at all. */
-void app_quit(struct app *app)
-{
-    window_close(app->window);
-}
-
 static bool wants_to_close(void *self)
 {
     struct app *app = self;

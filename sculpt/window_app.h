@@ -116,9 +116,6 @@ void app_take_model(struct app *app, bool fill);
 /* window.c: what the hand does ends where it is, whether its button is still down or not. */
 void app_end_drag(struct app *app);
 
-/* Closes the window, when nothing is being written any more. */
-void app_quit(struct app *app);
-
 /* The timer comes when there is something to be done by then. */
 void app_schedule(struct app *app);
 

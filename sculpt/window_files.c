@@ -220,7 +220,7 @@ void app_do_next(struct app *app)
 {
     app->question = ASK_NOTHING;
     if (app->next == NEXT_QUIT)
-        app_quit(app);
+        window_close(app->window);
     else if (app->next == NEXT_OPEN)
         app_ask_name(app, NAME_OPEN);
 }

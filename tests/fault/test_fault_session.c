@@ -1,7 +1,7 @@
 /* Sculpting by hand where memory ends, files fail and no thread can be had. */
+#include "../unit/saving.h"
 #include "../unit/trees.h"
 #include "faulty.h"
-#include "sculpt/session.h"
 
 /* A sculpture with a log, and with a chunk that is not known here. */
 static void save_begun(void)
@@ -31,7 +31,7 @@ static enum status carve(struct session *session, struct error *err)
     enum status status = session_open(session, "a.oct", 4, true, err);
     if (!status)
         status = click(session, err);
-    return status ? status : session_save(session, NULL, err);
+    return status ? status : save_now(session, NULL, err);
 }
 
 /* The file is what it was or what was carved, with its log and the chunk. */

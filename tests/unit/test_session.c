@@ -2,8 +2,8 @@
  * one could have written. */
 #include "check.h"
 #include "folder.h"
+#include "saving.h"
 #include "sculpt/bricks.h"
-#include "sculpt/session.h"
 
 #include <signal.h>
 #include <sys/resource.h>
@@ -162,14 +162,14 @@ static void what_is_saved_is_what_is_opened_and_its_log_replays(void **state)
     click(0.7, 0.7);
     assert_true(session_undo(&session, &err));
     assert_true(session.unsaved);
-    assert_ok(session_save(&session, NULL, &err), &err);
+    assert_ok(save_now(&session, NULL, &err), &err);
     assert_false(session.unsaved);
     session_clear(&session);
     assert_ok(session_open(&session, "new.oct", 9, false, &err), &err);
     assert_script("depth 5\nchip sphere 0.3 0.3 1 0.08\n");
     assert_non_null(session.log_before.data);
     click(0.6, 0.2);
-    assert_ok(session_save_as(&session, "other.oct", NULL, &err), &err);
+    assert_ok(save_now(&session, "other.oct", &err), &err);
     assert_string_equal(session.path, "other.oct");
     session_clear(&session);
     assert_ok(session_open(&session, "other.oct", 9, false, &err), &err);

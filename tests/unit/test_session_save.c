@@ -1,7 +1,7 @@
 /* Saving beside carving: what is written is a snapshot, and no kill at any moment loses what a hand did. */
 #include "check.h"
 #include "folder.h"
-#include "sculpt/session.h"
+#include "saving.h"
 
 #include <unistd.h>
 
@@ -86,7 +86,7 @@ static void undo_of_steps_before_a_new_name_survives_a_kill(void **state)
     open_new();
     click(0.3, 0.3);
     click(0.7, 0.7);
-    assert_ok(session_save_as(&session, "other.oct", NULL, &err), &err);
+    assert_ok(save_now(&session, "other.oct", &err), &err);
     assert_false(session.unsaved);
     assert_int_equal(access("new.oct.journal", F_OK), -1);
     assert_true(session_undo(&session, &err));
@@ -104,7 +104,7 @@ static void a_save_that_fails_leaves_the_name_the_journal_and_the_work_as_they_w
     (void)state;
     open_new();
     click(0.3, 0.3);
-    assert_int_equal(session_save_as(&session, "nowhere/other.oct", NULL, &err), STATUS_FILE);
+    assert_int_equal(save_now(&session, "nowhere/other.oct", &err), STATUS_FILE);
     assert_string_equal(session.path, "new.oct");
     assert_true(session.unsaved);
     kill_session();
@@ -124,7 +124,7 @@ static void an_export_is_written_beside_carving_and_is_no_save(void **state)
     click(0.7, 0.7);
     assert_refused(session_export_begin(&session, "more.chips", &err), STATUS_RESOURCE,
                    "out.chips is being written; wait a moment", &err);
-    assert_refused(session_save(&session, NULL, &err), STATUS_RESOURCE, "out.chips is being written", &err);
+    assert_refused(save_now(&session, NULL, &err), STATUS_RESOURCE, "out.chips is being written", &err);
     assert_true(session_write_ended(&session, true, &status, &err));
     assert_int_equal(status, STATUS_OK);
     struct chips chips = {0};
@@ -162,12 +162,12 @@ static void a_name_that_another_program_carves_under_is_not_taken(void **state)
     unlink("other.oct");
     unlink("other.oct.journal");
     assert_ok(journal_open("other.oct", &session.tree, &others, &err), &err);
-    assert_refused(session_save_as(&session, "other.oct", NULL, &err), STATUS_RESOURCE, "other.oct", &err);
+    assert_refused(save_now(&session, "other.oct", &err), STATUS_RESOURCE, "other.oct", &err);
     assert_int_equal(access("other.oct", F_OK), -1);
     assert_string_equal(session.path, "new.oct");
     assert_true(session.unsaved);
     journal_close(others, true);
-    assert_ok(session_save_as(&session, "other.oct", NULL, &err), &err); /* it has gone away */
+    assert_ok(save_now(&session, "other.oct", &err), &err); /* it has gone away */
     assert_file("other.oct", FIRST);
     session_clear(&session);
 }
@@ -181,7 +181,7 @@ static void without_a_journal_work_is_kept_from_the_first_save_on(void **state)
     assert_null(session.journal);
     assert_non_null(strstr(session.warning, "nothing is kept until you save: nowhere/new.oct.journal"));
     click(0.3, 0.3);
-    assert_ok(session_save_as(&session, "other.oct", NULL, &err), &err);
+    assert_ok(save_now(&session, "other.oct", &err), &err);
     assert_non_null(session.journal);
     assert_string_equal(session.warning, "");
     click(0.7, 0.7);
@@ -208,7 +208,7 @@ static void chunks_that_are_not_known_are_kept(void **state)
     click(0.7, 0.7);
     kill_session();
     assert_ok(session_open(&session, "new.oct", 5, true, &err), &err); /* recovered work keeps them too */
-    assert_ok(session_save(&session, NULL, &err), &err);
+    assert_ok(save_now(&session, NULL, &err), &err);
     session_clear(&session);
     assert_ok(octree_load_with("new.oct", &tree, &chunks, &err), &err);
     const struct octree_chunk *next = octree_chunks_find(&chunks, "NEXT");
@@ -264,7 +264,7 @@ static void what_has_no_file_yet_is_unsaved_work_that_survives_a_kill(void **sta
     kill_session();
     assert_ok(session_open(&session, "new.oct", 5, true, &err), &err);
     assert_tree(&session.tree, FIRST SECOND);
-    assert_ok(session_save(&session, NULL, &err), &err);
+    assert_ok(save_now(&session, NULL, &err), &err);
     session_clear(&session);
 
     make(FIRST, &tree); /* a name that is taken is refused, and the tree is the caller's still */
