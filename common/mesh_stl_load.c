@@ -4,6 +4,7 @@
  * where they are cut short, that they have bytes of 0.
  */
 #include "common/array.h"
+#include "common/little_endian.h"
 #include "common/mesh_files.h"
 #include "common/text.h"
 
@@ -20,15 +21,10 @@ struct soup {
     size_t count, capacity;
 };
 
-static uint32_t little_endian(const unsigned char *bytes)
-{
-    return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
-}
-
 static bool is_binary(const struct bytes *bytes)
 {
     return bytes->size >= HEAD_SIZE &&
-           bytes->size == HEAD_SIZE + (uint64_t)FACET_SIZE * little_endian(bytes->data + COUNT_AT);
+           bytes->size == HEAD_SIZE + (uint64_t)FACET_SIZE * get_bits(bytes->data + COUNT_AT, 4);
 }
 
 static enum status read_binary(const struct bytes *bytes, const char *path, struct soup *soup,
@@ -40,7 +36,7 @@ static enum status read_binary(const struct bytes *bytes, const char *path, stru
     for (size_t t = 0; t < triangle_count; t++) {
         const unsigned char *at = bytes->data + HEAD_SIZE + FACET_SIZE * t + CORNERS_AT;
         for (size_t i = 0; i < 9; i++, at += 4) {
-            uint32_t bits = little_endian(at);
+            const uint32_t bits = (uint32_t)get_bits(at, 4);
             float value;
             memcpy(&value, &bits, sizeof value);
             if (!isfinite(value))
@@ -156,7 +152,7 @@ static enum status read_soup(const struct bytes *bytes, const char *path, struct
         return error_set(err, STATUS_INPUT,
                          "%s: no STL file: it neither begins with 'solid' nor has the %d bytes of a header",
                          path, HEAD_SIZE);
-    uint32_t count = little_endian(bytes->data + COUNT_AT);
+    const uint32_t count = (uint32_t)get_bits(bytes->data + COUNT_AT, 4);
     return error_set(err, STATUS_INPUT, "%s: %u triangles in a binary STL take %llu bytes; the file has %zu",
                      path, count, (unsigned long long)HEAD_SIZE + (unsigned long long)FACET_SIZE * count,
                      bytes->size);

@@ -1,7 +1,7 @@
 /* VTK's XML PolyData with its numbers behind the text: each array is its size in bytes, as
  * 8 bytes, and its items. */
+#include "common/little_endian.h"
 #include "common/mesh_files.h"
-#include "common/put.h"
 
 static void write_size(uint64_t bytes, FILE *stream)
 {

@@ -1,6 +1,6 @@
 /* The formats that meshes are saved in. */
+#include "common/little_endian.h"
 #include "common/mesh_files.h"
-#include "common/put.h"
 #include "common/vec3.h"
 
 #include <float.h>

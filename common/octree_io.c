@@ -17,6 +17,7 @@
  */
 #include "common/array.h"
 #include "common/crc.h"
+#include "common/little_endian.h"
 #include "common/octree_chunks.h"
 #include "common/octree_code.h"
 
@@ -34,26 +35,12 @@ enum {
     CHUNK_OVERHEAD = NAME_SIZE + 4 + 4,
 };
 
-static void put_number(unsigned char *out, uint64_t value, int bytes)
-{
-    for (int i = 0; i < bytes; i++)
-        out[i] = (unsigned char)(value >> 8 * i);
-}
-
-static uint64_t get_number(const unsigned char *in, int bytes)
-{
-    uint64_t value = 0;
-    for (int i = 0; i < bytes; i++)
-        value |= (uint64_t)in[i] << 8 * i;
-    return value;
-}
-
 static void write_chunk(FILE *stream, const char *name, const unsigned char *contents, size_t size)
 {
     unsigned char head[NAME_SIZE + 4], tail[4];
     memcpy(head, name, NAME_SIZE);
-    put_number(head + NAME_SIZE, size, 4);
-    put_number(tail, crc32_bytes(crc32_bytes(0, head, sizeof head), contents, size), 4);
+    put_bits(head + NAME_SIZE, size, 4);
+    put_bits(tail, crc32_bytes(crc32_bytes(0, head, sizeof head), contents, size), 4);
     fwrite(head, 1, sizeof head, stream);
     if (size > 0)
         fwrite(contents, 1, size, stream);
@@ -63,9 +50,9 @@ static void write_chunk(FILE *stream, const char *name, const unsigned char *con
 static void write_head(FILE *stream, const struct octree *tree)
 {
     unsigned char head[HEAD_SIZE];
-    put_number(head, OCTREE_FORMAT_VERSION, 4);
-    put_number(head + 4, tree->depth, 4);
-    put_number(head + 8, octree_leaf_count(tree), 8);
+    put_bits(head, OCTREE_FORMAT_VERSION, 4);
+    put_bits(head + 4, tree->depth, 4);
+    put_bits(head + 8, octree_leaf_count(tree), 8);
     write_chunk(stream, "HEAD", head, sizeof head);
 }
 
@@ -79,7 +66,7 @@ static void write_coefficients(FILE *stream, const struct octree *tree)
         uint32_t bits;
         memcpy(&bits, &tree->coefficient[m], sizeof bits);
         list[size] = (unsigned char)m;
-        put_number(list + size + 1, bits, 4);
+        put_bits(list + size + 1, bits, 4);
         size += COEFFICIENT_SIZE;
     }
     if (size > 0)
@@ -157,7 +144,7 @@ static enum status next_chunk(const struct bytes *file, size_t *at, struct chunk
     for (int i = 0; i < NAME_SIZE; i++)
         chunk->name[i] = isprint(head[i]) ? (char)head[i] : '?';
     chunk->name[NAME_SIZE] = '\0';
-    chunk->size = get_number(head + NAME_SIZE, 4);
+    chunk->size = get_bits(head + NAME_SIZE, 4);
     chunk->contents = head + NAME_SIZE + 4;
     if (chunk->size > left - CHUNK_OVERHEAD)
         return error_set(
@@ -165,7 +152,7 @@ static enum status next_chunk(const struct bytes *file, size_t *at, struct chunk
             "chunk %s at byte %zu: claims %zu bytes where %zu are left; the file is cut short or "
             "damaged",
             chunk->name, *at, chunk->size, left - CHUNK_OVERHEAD);
-    if (crc32_bytes(0, head, NAME_SIZE + 4 + chunk->size) != get_number(chunk->contents + chunk->size, 4))
+    if (crc32_bytes(0, head, NAME_SIZE + 4 + chunk->size) != get_bits(chunk->contents + chunk->size, 4))
         return error_set(err, STATUS_INPUT,
                          "chunk %s at byte %zu: the checksum does not match; the file is damaged",
                          chunk->name, *at);
@@ -179,7 +166,7 @@ static enum status load_head(struct loader *loader, const struct chunk *chunk, s
         return refuse_chunk(err, chunk, "is there twice");
     if (chunk->size < 4)
         return refuse_chunk(err, chunk, "has no version");
-    uint64_t version = get_number(chunk->contents, 4);
+    uint64_t version = get_bits(chunk->contents, 4);
     if (version != OCTREE_FORMAT_VERSION)
         return error_set(err, STATUS_INPUT,
                          "chunk %s: version %u of the format; this program reads version %d", chunk->name,
@@ -187,11 +174,11 @@ static enum status load_head(struct loader *loader, const struct chunk *chunk, s
     if (chunk->size != HEAD_SIZE)
         return error_set(err, STATUS_INPUT, "chunk %s: has %zu bytes, must have %d", chunk->name, chunk->size,
                          HEAD_SIZE);
-    uint64_t depth = get_number(chunk->contents + 4, 4);
+    uint64_t depth = get_bits(chunk->contents + 4, 4);
     if (depth > OCTREE_DEPTH_MAX)
         return error_set(err, STATUS_INPUT, "chunk %s: depth %u; at most %d is possible", chunk->name,
                          (unsigned)depth, OCTREE_DEPTH_MAX);
-    loader->leaves = get_number(chunk->contents + 8, 8);
+    loader->leaves = get_bits(chunk->contents + 8, 8);
     loader->has_head = true;
     return octree_init(&loader->tree, (unsigned)depth, 0, err);
 }
@@ -206,7 +193,7 @@ static enum status load_coefficients(struct loader *loader, const struct chunk *
     unsigned before = 0;
     for (size_t at = 0; at < chunk->size; at += COEFFICIENT_SIZE) {
         unsigned material = chunk->contents[at];
-        uint32_t bits = (uint32_t)get_number(chunk->contents + at + 1, 4);
+        uint32_t bits = (uint32_t)get_bits(chunk->contents + at + 1, 4);
         float value;
         memcpy(&value, &bits, sizeof value);
         if (material <= before)

@@ -1,6 +1,6 @@
 #include "common/point_cache.h"
 #include "common/file.h"
-#include "common/put.h"
+#include "common/little_endian.h"
 
 #include <stdlib.h>
 

@@ -1,5 +1,6 @@
 /* MagicaVoxel files: chunks. */
 #include "common/array.h"
+#include "common/little_endian.h"
 #include "sculpt/vox.h"
 
 #include <ctype.h>
@@ -9,9 +10,7 @@
 uint32_t vox_number(struct vox_cursor *cursor)
 {
     const unsigned char *byte = vox_skip(cursor, 4);
-    if (!byte)
-        return 0;
-    return byte[0] | (uint32_t)byte[1] << 8 | (uint32_t)byte[2] << 16 | (uint32_t)byte[3] << 24;
+    return byte ? (uint32_t)get_bits(byte, 4) : 0;
 }
 
 const unsigned char *vox_skip(struct vox_cursor *cursor, size_t size)

@@ -2,6 +2,7 @@
  * models, which a scene graph puts side by side. */
 #include "common/array.h"
 #include "common/file.h"
+#include "common/little_endian.h"
 #include "sculpt/sculpt.h"
 #include "sculpt/vox.h"
 
@@ -29,17 +30,15 @@ static void put_bytes(struct writer *writer, const void *bytes, size_t size)
 
 static void put_number(struct writer *writer, size_t value)
 {
-    const unsigned char bytes[4] = {(unsigned char)value, (unsigned char)(value >> 8),
-                                    (unsigned char)(value >> 16), (unsigned char)(value >> 24)};
+    unsigned char bytes[4];
+    put_bits(bytes, value, sizeof bytes);
     put_bytes(writer, bytes, sizeof bytes);
 }
 
 static void set_number(struct writer *writer, size_t at, size_t value)
 {
-    if (writer->failed)
-        return;
-    for (int i = 0; i < 4; i++)
-        writer->items[at + i] = (unsigned char)(value >> 8 * i);
+    if (!writer->failed)
+        put_bits(writer->items + at, value, 4);
 }
 
 /* Begins a chunk; its sizes are set by end_chunk() with what this returns. */

@@ -2,6 +2,7 @@
 #include "common/crc.h"
 #include "common/file.h"
 #include "common/hash.h"
+#include "common/little_endian.h"
 #include "sim/checkpoint_chunks.h"
 
 #include <stdlib.h>
@@ -34,21 +35,15 @@ uint64_t checkpoint_fingerprint(const struct sim *sim)
     return hash_bytes(hash, sim->mass, sim->point_count * sizeof *sim->mass);
 }
 
-static void put_number(unsigned char *out, uint64_t value, int bytes)
-{
-    for (int i = 0; i < bytes; i++)
-        out[i] = (unsigned char)(value >> 8 * i);
-}
-
 /* A chunk whose contents are `first` and then `rest`; either may be empty. */
 static void write_chunk(FILE *stream, const char *name, const void *first, size_t first_size,
                         const void *rest, size_t rest_size)
 {
     unsigned char head[CHECKPOINT_CHUNK_HEAD], tail[CHECKPOINT_CHUNK_TAIL];
     memcpy(head, name, CHECKPOINT_NAME);
-    put_number(head + CHECKPOINT_NAME, first_size + rest_size, 8);
+    put_bits(head + CHECKPOINT_NAME, first_size + rest_size, 8);
     uint32_t crc = crc32_bytes(crc32_bytes(0, head, sizeof head), first, first_size);
-    put_number(tail, crc32_bytes(crc, rest, rest_size), 4);
+    put_bits(tail, crc32_bytes(crc, rest, rest_size), 4);
     fwrite(head, 1, sizeof head, stream);
     if (first_size > 0)
         fwrite(first, 1, first_size, stream);
@@ -61,9 +56,9 @@ static void write_head(FILE *stream, const struct sim *sim)
 {
     unsigned char head[CHECKPOINT_HEAD_SIZE];
     const uint32_t order = CHECKPOINT_ORDER;
-    put_number(head, CHECKPOINT_VERSION, 4);
+    put_bits(head, CHECKPOINT_VERSION, 4);
     memcpy(head + 4, &order, sizeof order);
-    put_number(head + 8, checkpoint_fingerprint(sim), 8);
+    put_bits(head + 8, checkpoint_fingerprint(sim), 8);
     write_chunk(stream, "HEAD", head, sizeof head, NULL, 0);
 }
 
@@ -73,9 +68,9 @@ static void write_run(FILE *stream, const struct checkpoint_run *run)
     uint64_t bits[2];
     memcpy(&bits[0], &run->first_break, sizeof bits[0]);
     memcpy(&bits[1], &run->seconds, sizeof bits[1]);
-    put_number(contents, bits[0], 8);
-    put_number(contents + 8, bits[1], 8);
-    put_number(contents + 16, run->shown, 8);
+    put_bits(contents, bits[0], 8);
+    put_bits(contents + 8, bits[1], 8);
+    put_bits(contents + 16, run->shown, 8);
     write_chunk(stream, "RUN ", contents, sizeof contents, NULL, 0);
     write_chunk(stream, "ROWS", run->rows, run->row_bytes, NULL, 0);
 }
@@ -87,7 +82,7 @@ static void write_state(FILE *stream, struct sim *sim)
     for (size_t i = 0; i < count; i++) {
         unsigned char title[4 + 64];
         const size_t length = strnlen(blocks[i].name, 64);
-        put_number(title, length, 4);
+        put_bits(title, length, 4);
         memcpy(title + 4, blocks[i].name, length);
         write_chunk(stream, "DATA", title, 4 + length, blocks[i].data, blocks[i].size);
     }

@@ -2,6 +2,7 @@
 #include "common/array.h"
 #include "common/crc.h"
 #include "common/file.h"
+#include "common/little_endian.h"
 #include "sim/checkpoint.h"
 #include "sim/checkpoint_chunks.h"
 #include "sim/guard.h"
@@ -26,14 +27,6 @@ struct reader {
     uint64_t fingerprint;
 };
 
-static uint64_t get_number(const unsigned char *in, int bytes)
-{
-    uint64_t value = 0;
-    for (int i = 0; i < bytes; i++)
-        value |= (uint64_t)in[i] << 8 * i;
-    return value;
-}
-
 static enum status refuse(const struct chunk *chunk, const char *what, struct error *err)
 {
     return error_set(err, STATUS_INPUT, "chunk %s at byte %zu: %s", chunk->name, chunk->at, what);
@@ -52,7 +45,7 @@ static enum status next_chunk(struct reader *reader, const char *name, struct ch
         chunk->name[i] = isprint(head[i]) ? (char)head[i] : '?';
     chunk->name[CHECKPOINT_NAME] = '\0';
     chunk->at = reader->at;
-    const uint64_t size = get_number(head + CHECKPOINT_NAME, 8);
+    const uint64_t size = get_bits(head + CHECKPOINT_NAME, 8);
     if (size > left - overhead)
         return error_set(err, STATUS_INPUT,
                          "chunk %s at byte %zu: claims %llu bytes where %zu are left; the file is cut short "
@@ -61,7 +54,7 @@ static enum status next_chunk(struct reader *reader, const char *name, struct ch
     chunk->size = (size_t)size;
     chunk->contents = head + CHECKPOINT_CHUNK_HEAD;
     if (crc32_bytes(0, head, CHECKPOINT_CHUNK_HEAD + chunk->size) !=
-        get_number(chunk->contents + chunk->size, CHECKPOINT_CHUNK_TAIL))
+        get_bits(chunk->contents + chunk->size, CHECKPOINT_CHUNK_TAIL))
         return refuse(chunk, "the checksum does not match; the file is damaged", err);
     if (strcmp(chunk->name, name) != 0)
         return error_set(err, STATUS_INPUT, "chunk %s at byte %zu: here chunk %s must be", chunk->name,
@@ -76,7 +69,7 @@ static enum status read_head(struct reader *reader, struct error *err)
     enum status status = next_chunk(reader, "HEAD", &chunk, err);
     if (status)
         return status;
-    const uint64_t version = chunk.size < 4 ? 0 : get_number(chunk.contents, 4);
+    const uint64_t version = chunk.size < 4 ? 0 : get_bits(chunk.contents, 4);
     if (version != CHECKPOINT_VERSION)
         return error_set(err, STATUS_INPUT,
                          "chunk HEAD: version %llu of the format; this program reads version %d",
@@ -86,7 +79,7 @@ static enum status read_head(struct reader *reader, struct error *err)
         memcpy(&order, chunk.contents + 4, sizeof order);
     if (order != CHECKPOINT_ORDER)
         return refuse(&chunk, "was written by a machine with another order of bytes, or is damaged", err);
-    reader->fingerprint = get_number(chunk.contents + 8, 8);
+    reader->fingerprint = get_bits(chunk.contents + 8, 8);
     return STATUS_OK;
 }
 
@@ -130,10 +123,10 @@ static enum status read_run(struct reader *reader, struct checkpoint_run *run, s
         return status;
     if (chunk.size != CHECKPOINT_RUN_SIZE)
         return refuse(&chunk, "has another size than it must have", err);
-    const uint64_t bits[2] = {get_number(chunk.contents, 8), get_number(chunk.contents + 8, 8)};
+    const uint64_t bits[2] = {get_bits(chunk.contents, 8), get_bits(chunk.contents + 8, 8)};
     memcpy(&run->first_break, &bits[0], sizeof bits[0]);
     memcpy(&run->seconds, &bits[1], sizeof bits[1]);
-    run->shown = get_number(chunk.contents + 16, 8);
+    run->shown = get_bits(chunk.contents + 16, 8);
     if (!isfinite(run->first_break) || !(run->seconds >= 0) || !isfinite(run->seconds))
         return refuse(&chunk, "its times are none", err);
     status = next_chunk(reader, "ROWS", &chunk, err);
@@ -154,7 +147,7 @@ static bool only_records(const char *name)
 static enum status take_block(const struct chunk *chunk, char name[65], const unsigned char **data,
                               size_t *size, struct error *err)
 {
-    const uint64_t length = chunk->size < 4 ? UINT64_MAX : get_number(chunk->contents, 4);
+    const uint64_t length = chunk->size < 4 ? UINT64_MAX : get_bits(chunk->contents, 4);
     if (length > 64 || length > chunk->size - 4)
         return refuse(chunk, "has no name", err);
     memcpy(name, chunk->contents + 4, length);
