@@ -27,11 +27,16 @@ static inline double vec3_length(const double a[3])
     return sqrt(vec3_dot(a, a));
 }
 
-static inline double vec3_distance(const double a[3], const double b[3])
+static inline double vec3_square_distance(const double a[3], const double b[3])
 {
     double d[3];
     vec3_sub(a, b, d);
-    return vec3_length(d);
+    return vec3_dot(d, d);
+}
+
+static inline double vec3_distance(const double a[3], const double b[3])
+{
+    return sqrt(vec3_square_distance(a, b));
 }
 
 /* The cross product of two sides: twice the triangle's area along its normal. */

@@ -168,12 +168,8 @@ static enum status check_outputs(const struct frames *frames, struct error *err)
     enum status status = STATUS_OK;
     if (frames->movie_path)
         status = movie_check(frames->movie_path, err);
-    if (!status && frames->sheet_path) {
-        struct file_out *trial;
-        status = file_out_open(frames->sheet_path, &trial, err);
-        if (!status)
-            file_out_abandon(trial);
-    }
+    if (!status && frames->sheet_path)
+        status = file_out_check(frames->sheet_path, err);
     if (!status && frames->folder)
         status = file_make_folder(frames->folder, err);
     if (!status && frames->folder && access(frames->folder, W_OK))

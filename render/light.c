@@ -14,8 +14,10 @@ enum status light_open(struct light *light, const struct gl *gl, struct error *e
     light->lists = 10 * major + minor >= 43 && gl->MemoryBarrier && gl->ClearBufferData;
     if (!status && light->lists)
         status = program_link(gl, shader_whole_vertex, shader_list_fragment, &light->list, err);
-    if (status)
+    if (status) {
+        light_close(light, gl);
         return status;
+    }
     if (light->lists) {
         gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
         light->most = (size_t)most / (LIGHT_NODE_WORDS * sizeof(uint32_t));

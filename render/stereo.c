@@ -41,7 +41,7 @@ void stereo_close(struct stereo *stereo, const struct gl *gl)
 
 void stereo_keep(const struct stereo *stereo, const struct gl *gl, const struct target *target, int eye)
 {
-    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, target->resolved ? target->resolved : target->drawn);
+    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, target_read_from(target));
     gl->ActiveTexture(GL_TEXTURE0);
     gl->BindTexture(GL_TEXTURE_2D, stereo->pictures[eye]);
     gl->CopyTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, 0, 0, target->width, target->height, 0);
@@ -50,7 +50,7 @@ void stereo_keep(const struct stereo *stereo, const struct gl *gl, const struct 
 void stereo_mix(const struct stereo *stereo, const struct gl *gl, const struct target *target,
                 const struct render_view *view, int below)
 {
-    gl->BindFramebuffer(GL_FRAMEBUFFER, target->resolved ? target->resolved : target->drawn);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, target_read_from(target));
     gl->Viewport(0, 0, target->width, target->height);
     gl->Enable(GL_FRAMEBUFFER_SRGB);
     gl->Disable(GL_DEPTH_TEST);

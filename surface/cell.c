@@ -1,5 +1,7 @@
 #include "surface/cell.h"
 
+#include "common/vec3.h"
+
 #include <string.h>
 
 static int edge_between(int p, int q)
@@ -92,12 +94,6 @@ void cell_table_make(struct cell_table *table)
     }
 }
 
-static double square_distance(const double a[3], const double b[3])
-{
-    double x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2];
-    return x * x + y * y + z * z;
-}
-
 /* The squared cosine of a triangle's smallest angle, that opposite its shortest side, from the squares of its
  * sides: below 60 degrees a sharper angle's is larger. */
 static double sharpness(double p, double q, double r)
@@ -133,9 +129,9 @@ static void plan_chord(struct plan *plan, const double place[][3], int i, int j)
         double worse = sharper(plan->best[i][k], plan->best[k][j]);
         if (worse >= plan->best[i][j])
             continue;
-        double cost = sharper(worse, sharpness(square_distance(place[i], place[k]),
-                                               square_distance(place[k], place[j]),
-                                               square_distance(place[j], place[i])));
+        double cost = sharper(worse, sharpness(vec3_square_distance(place[i], place[k]),
+                                               vec3_square_distance(place[k], place[j]),
+                                               vec3_square_distance(place[j], place[i])));
         if (cost < plan->best[i][j]) {
             plan->best[i][j] = cost;
             plan->apex[i][j] = (uint8_t)k;
@@ -160,9 +156,10 @@ static int triangulate_four(const struct cell_table *table, const uint8_t *edges
                             uint8_t triangles[][3])
 {
     static const uint8_t cuts[2][2][3] = {{{0, 1, 3}, {1, 2, 3}}, {{0, 2, 3}, {0, 1, 2}}};
-    double side[4], odd = square_distance(place[1], place[3]), even = square_distance(place[0], place[2]);
+    double side[4], odd = vec3_square_distance(place[1], place[3]),
+                    even = vec3_square_distance(place[0], place[2]);
     for (int i = 0; i < 4; i++)
-        side[i] = square_distance(place[i], place[(i + 1) % 4]);
+        side[i] = vec3_square_distance(place[i], place[(i + 1) % 4]);
     bool odd_ok = !(table->faces[edges[1]] & table->faces[edges[3]]);
     bool even_ok = !(table->faces[edges[0]] & table->faces[edges[2]]);
     double by_odd = sharper(sharpness(side[3], side[0], odd), sharpness(side[1], side[2], odd));

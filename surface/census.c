@@ -44,12 +44,7 @@ static void add_triangle(const struct mesh *mesh, uint32_t t, struct surface_par
 static void count_angles(const struct mesh *mesh, uint32_t t, uint64_t *angles)
 {
     for (int k = 0; k < 3; k++) {
-        const double *corner = mesh->position[mesh->triangle[t][k]];
-        double a[3], b[3], across[3];
-        vec3_sub(mesh->position[mesh->triangle[t][(k + 1) % 3]], corner, a);
-        vec3_sub(mesh->position[mesh->triangle[t][(k + 2) % 3]], corner, b);
-        vec3_cross(a, b, across);
-        double angle_deg = atan2(vec3_length(across), vec3_dot(a, b)) * 180 / M_PI;
+        const double angle_deg = surface_angle(mesh, mesh->triangle[t], k) * 180 / M_PI;
         angles[(int)fmin(angle_deg / (180.0 / CENSUS_ANGLES), CENSUS_ANGLES - 1)]++;
     }
 }

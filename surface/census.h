@@ -39,6 +39,9 @@ struct surface_census {
  * points. Returns how many there are. The mesh must be connected. */
 size_t surface_number_parts(const struct mesh *mesh, uint32_t *part);
 
+/* The angle at corner k of a triangle, in radians. */
+double surface_angle(const struct mesh *mesh, const uint32_t triangle[3], int k);
+
 /* The mesh must be connected and closed, shape what surface_measure() found. Errors: STATUS_NO_MEMORY. */
 enum status surface_count(const struct mesh *mesh, const struct surface_shape *shape,
                           struct surface_census *census, struct error *err);

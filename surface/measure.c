@@ -15,17 +15,22 @@ static bool count_components(const struct mesh *mesh, size_t *count)
     return true;
 }
 
-static double smallest_angle(const struct mesh *mesh, const uint32_t triangle[3])
+double surface_angle(const struct mesh *mesh, const uint32_t triangle[3], int k)
+{
+    const double *corner = mesh->position[triangle[k]];
+    double a[3], b[3], across[3];
+    vec3_sub(mesh->position[triangle[(k + 1) % 3]], corner, a);
+    vec3_sub(mesh->position[triangle[(k + 2) % 3]], corner, b);
+    vec3_cross(a, b, across);
+    return atan2(vec3_length(across), vec3_dot(a, b));
+}
+
+static double smallest_angle_deg(const struct mesh *mesh)
 {
     double least = M_PI;
-    for (int k = 0; k < 3; k++) {
-        const double *corner = mesh->position[triangle[k]];
-        double a[3], b[3], across[3];
-        vec3_sub(mesh->position[triangle[(k + 1) % 3]], corner, a);
-        vec3_sub(mesh->position[triangle[(k + 2) % 3]], corner, b);
-        vec3_cross(a, b, across);
-        least = fmin(least, atan2(vec3_length(across), vec3_dot(a, b)));
-    }
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        for (int k = 0; k < 3; k++)
+            least = fmin(least, surface_angle(mesh, mesh->triangle[t], k));
     return least * 180 / M_PI;
 }
 
@@ -49,8 +54,6 @@ enum status surface_measure(const struct mesh *mesh, struct surface_shape *shape
         return error_no_memory(err, "the components");
     shape->euler = (long)mesh->point_count - (long)mesh->edge_count + (long)mesh->triangle_count;
     measure_edges(mesh, shape);
-    shape->smallest_angle_deg = 180;
-    for (uint32_t i = 0; i < mesh->triangle_count; i++)
-        shape->smallest_angle_deg = fmin(shape->smallest_angle_deg, smallest_angle(mesh, mesh->triangle[i]));
+    shape->smallest_angle_deg = smallest_angle_deg(mesh);
     return STATUS_OK;
 }

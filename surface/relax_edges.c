@@ -19,13 +19,6 @@ struct worth {
 
 static const struct worth best_worth = {1, 1};
 
-static double square_distance(const double a[3], const double b[3])
-{
-    double d[3];
-    vec3_sub(a, b, d);
-    return vec3_dot(d, d);
-}
-
 static double least_of(double a, double b, double c)
 {
     double least = a < b ? a : b;
@@ -37,8 +30,8 @@ static double least_of(double a, double b, double c)
 static double angle_of(const double *const place[3], double across[3])
 {
     vec3_triangle(place[0], place[1], place[2], across);
-    double a = square_distance(place[0], place[1]), b = square_distance(place[1], place[2]),
-           c = square_distance(place[2], place[0]), area = vec3_dot(across, across);
+    double a = vec3_square_distance(place[0], place[1]), b = vec3_square_distance(place[1], place[2]),
+           c = vec3_square_distance(place[2], place[0]), area = vec3_dot(across, across);
     double shortest = least_of(a, b, c), longer = shortest > 0 ? a * b * c / shortest : 0;
     return area > 0 && longer > 0 ? area / longer : 0;
 }
@@ -76,7 +69,8 @@ static struct worth worth_of_triangle(const struct remesh *r, uint32_t t)
 
 static double side_square(const struct remesh *r, uint32_t side)
 {
-    return square_distance(r->position[side_point(r, side)], r->position[side_point(r, side_next(side))]);
+    return vec3_square_distance(r->position[side_point(r, side)],
+                                r->position[side_point(r, side_next(side))]);
 }
 
 static bool alive(const struct remesh *r, uint32_t side)
@@ -121,7 +115,7 @@ static bool try_moved(const struct remesh *r, uint32_t point, uint32_t side, con
         *before = worse(*before, worth_of_triangle(r, t));
         if (t == side / 3 || t == side_across(r, side) / 3)
             continue;
-        if (square_distance(place, r->position[p]) > most_square)
+        if (vec3_square_distance(place, r->position[p]) > most_square)
             return false;
         *after = worse(*after, worth_of((const double *const[]){place, r->position[p], r->position[q]},
                                         (const double *const[]){normal, r->normal[p], r->normal[q]}));
@@ -228,7 +222,7 @@ static bool try_flip(const struct remesh *r, uint32_t side, double most_square, 
     uint32_t other = side_across(r, side);
     uint32_t a = side_point(r, side), b = side_point(r, other);
     uint32_t c = side_point(r, side_next(side_next(side))), d = side_point(r, side_next(side_next(other)));
-    if (square_distance(r->position[c], r->position[d]) > most_square)
+    if (vec3_square_distance(r->position[c], r->position[d]) > most_square)
         return false;
     change->before = worse(worth_of_triangle(r, side / 3), worth_of_triangle(r, other / 3));
     change->after = worse(worth_of_points(r, a, d, c), worth_of_points(r, d, b, c));
