@@ -133,16 +133,46 @@ static void draw_behind(const struct band *band, bool smoothly)
     draw_shadow(&render->draw, gl, place, band->eye, &render->geometry);
 }
 
+/* Lines that translucent skin may lie before, or behind. */
+static bool lines_meet_skin(const struct render *render)
+{
+    return render->overlay.hidden_lines > 0 && render->geometry.translucent.count > 0;
+}
+
+/* First what of the lines lies behind the nearest skin, so that this dims it. What lies between translucent
+ * skin and opaque things behind that is covered by these. */
+static void draw_lines_behind(const struct band *band)
+{
+    struct render *render = band->render;
+    const struct gl *gl = &render->gl;
+    if (!lines_meet_skin(render))
+        return;
+    draw_depths(&render->draw, gl, &band->place, band->eye, &render->geometry);
+    overlay_draw_lines_behind(&render->overlay, gl, band->eye, &render->geometry);
+    gl->Clear(GL_DEPTH_BUFFER_BIT);
+}
+
+/* Over the skins the rest of the lines. */
+static void draw_lines_before(const struct band *band)
+{
+    struct render *render = band->render;
+    const struct gl *gl = &render->gl;
+    if (lines_meet_skin(render))
+        draw_depths(&render->draw, gl, &band->place, band->eye, &render->geometry);
+    overlay_draw_lines(&render->overlay, gl, band->eye, &render->geometry);
+}
+
 /* All but the text. */
 static void draw_all(const struct band *band)
 {
     struct render *render = band->render;
     const struct gl *gl = &render->gl;
     draw_behind(band, render->target.samples > 1);
+    draw_lines_behind(band);
     if (band->scene->solid)
         solid_draw_eye(&render->solid, gl, band->view, band->eye, &render->geometry, band->scene);
     draw_eye(&render->draw, gl, &band->place, band->eye, &render->geometry);
-    overlay_draw_lines(&render->overlay, gl, band->eye, &render->geometry);
+    draw_lines_before(band);
 }
 
 /* Smooth edges are costly: only the part of the picture that anything may meet is drawn with more than one
@@ -195,11 +225,12 @@ static enum status draw_strip(struct band *band, const int strip[4], struct erro
     scissor(band, (const int[4]){0, 0, strip[2] * side, strip[3] * side});
     draw_backdrop(&render->draw, gl, &band->place);
     draw_shadow(&render->draw, gl, &band->place, band->eye, &render->geometry);
+    draw_lines_behind(band);
     if (band->scene->solid)
         solid_draw_eye(&render->solid, gl, view, band->eye, &render->geometry, band->scene);
     draw_opaque(&render->draw, gl, view->style, band->eye, &render->geometry);
     light_layers(&render->light, gl, view->order, draw_layers, band);
-    overlay_draw_lines(&render->overlay, gl, band->eye, &render->geometry);
+    draw_lines_before(band);
     light_finish(&render->light, gl);
     target_bind_drawn(&render->target, gl);
     gl->Viewport(0, 0, render->target.width, render->target.height);

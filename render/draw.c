@@ -237,6 +237,17 @@ void draw_translucent(const struct draw *draw, const struct gl *gl, enum render_
         draw_indices(gl, 3 * g->opaque.count, 3 * g->translucent.count);
 }
 
+void draw_depths(const struct draw *draw, const struct gl *gl, const struct draw_place *place,
+                 const struct camera_eye *eye, const struct geometry *geometry)
+{
+    gl->DepthMask(GL_TRUE);
+    gl->ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    draw_opaque(draw, gl, RENDER_PAPER, eye, geometry);
+    draw_translucent(draw, gl, RENDER_PAPER, place, eye, geometry,
+                     &(struct light_pass){.way = LIGHT_BLENDED});
+    gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
 /* Opaque triangles hide by depth; translucent ones are hidden by those, and lie over one another in their
  * order. The shader gives the light to add and the share of each colour to keep of what lies behind. */
 void draw_eye(const struct draw *draw, const struct gl *gl, const struct draw_place *place,

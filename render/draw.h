@@ -71,6 +71,10 @@ void draw_translucent(const struct draw *draw, const struct gl *gl, enum render_
                       const struct draw_place *place, const struct camera_eye *eye,
                       const struct geometry *geometry, const struct light_pass *pass);
 
+/* The depth of all skins where there is none that is nearer, and no colour. */
+void draw_depths(const struct draw *draw, const struct gl *gl, const struct draw_place *place,
+                 const struct camera_eye *eye, const struct geometry *geometry);
+
 /* All skins, the translucent ones blended in the geometry's order. */
 void draw_eye(const struct draw *draw, const struct gl *gl, const struct draw_place *place,
               const struct camera_eye *eye, const struct geometry *geometry);

@@ -230,14 +230,11 @@ static void blend(const struct gl *gl)
     gl->DepthMask(GL_FALSE);
 }
 
-void overlay_draw_lines(const struct overlay *overlay, const struct gl *gl, const struct camera_eye *eye,
-                        const struct geometry *geometry)
+static void use_lines(const struct overlay *overlay, const struct gl *gl, const struct camera_eye *eye,
+                      const struct geometry *geometry)
 {
     float projection[16];
     const float at[3] = {(float)eye->offset, 0, 0};
-    size_t hidden = overlay->hidden_lines, all = overlay->lines.count / 4;
-    if (!all)
-        return;
     camera_projection(eye, geometry->nearest, geometry->farthest, projection);
     blend(gl);
     gl->UseProgram(overlay->line_program);
@@ -246,6 +243,25 @@ void overlay_draw_lines(const struct overlay *overlay, const struct gl *gl, cons
     gl->Uniform2f(overlay->line_size, (float)eye->width, (float)eye->height);
     gl->BindVertexArray(overlay->line_array);
     gl->Enable(GL_DEPTH_TEST);
+}
+
+void overlay_draw_lines_behind(const struct overlay *overlay, const struct gl *gl,
+                               const struct camera_eye *eye, const struct geometry *geometry)
+{
+    use_lines(overlay, gl, eye, geometry);
+    gl->DepthFunc(GL_GEQUAL);
+    gl->DrawElements(GL_TRIANGLES, (GLsizei)(6 * overlay->hidden_lines), GL_UNSIGNED_INT, NULL);
+    gl->DepthFunc(GL_LESS);
+    gl->DepthMask(GL_TRUE);
+}
+
+void overlay_draw_lines(const struct overlay *overlay, const struct gl *gl, const struct camera_eye *eye,
+                        const struct geometry *geometry)
+{
+    const size_t hidden = overlay->hidden_lines, all = overlay->lines.count / 4;
+    if (!all)
+        return;
+    use_lines(overlay, gl, eye, geometry);
     if (hidden)
         gl->DrawElements(GL_TRIANGLES, (GLsizei)(6 * hidden), GL_UNSIGNED_INT, NULL);
     gl->Disable(GL_DEPTH_TEST);

@@ -11,7 +11,7 @@ struct render_line {
     float colour[3]; /* linear light, 0 .. 1 */
     float opacity;   /* 0 .. 1 */
     float width;     /* pixels, 0.5 or more */
-    bool on_top;     /* seen through everything; else hidden by what lies before it */
+    bool on_top;     /* seen through everything; else hidden by what lies before it, or dimmed by such skin */
 };
 
 /* Text in UTF-8, of the letters that font.h has; '\n' begins a new line, and what is none of them shows as a

@@ -46,9 +46,13 @@ enum status overlay_upload(struct overlay *overlay, const struct gl *gl, struct 
                            const struct render_view *view, const struct render_scene *scene,
                            struct error *err);
 
-/* Over what is drawn, with its depth. */
+/* Over what is drawn: what is nearer than the depth there, and what is on top. */
 void overlay_draw_lines(const struct overlay *overlay, const struct gl *gl, const struct camera_eye *eye,
                         const struct geometry *geometry);
+
+/* The rest: what is as far as the depth there, or farther. */
+void overlay_draw_lines_behind(const struct overlay *overlay, const struct gl *gl,
+                               const struct camera_eye *eye, const struct geometry *geometry);
 
 /* Over everything. The viewport is that of the eye's picture. */
 void overlay_draw_text(const struct overlay *overlay, const struct gl *gl, const struct camera_eye *eye);

@@ -1,5 +1,6 @@
 /* Skins look as lit, as shiny and as opaque as they are told. */
 #include "cards.h"
+#include "render/overlay.h"
 #include "sphere.h"
 
 /* White skin is not paled further, and straight on its path is its thickness. Three values rounded to 1/255
@@ -225,6 +226,49 @@ static void a_shadow_has_no_edge(void **state)
     sphere_free(&mesh);
 }
 
+/* How green the middle is of a picture of cards, the line before or behind them at z. */
+static double green_of_a_line(const struct render_view *view, const struct render_skin *skins, size_t count,
+                              double z)
+{
+    struct error err;
+    struct image image = {0};
+    const struct render_line line = {
+        .from = {-1, 0, z}, .to = {1, 0, z}, .colour = {0, 0.6f, 0}, .opacity = 1, .width = 4};
+    assert_ok(render_draw_scene(renderer, view,
+                                &(struct render_scene){skins, count, .lines = &line, .line_count = 1}, &image,
+                                &err),
+              &err);
+    const double green = linear(pixel(&image, 100, 100)[1]) - linear(pixel(&image, 100, 100)[0]);
+    image_clear(&image);
+    return green;
+}
+
+/* As strings, needles and walls are: whatever the order of the layers. */
+static void a_line_behind_translucent_skin_is_seen_through_it(void **state)
+{
+    (void)state;
+    struct cards near = {0}, far = {0};
+    add_card(&near, -1, -1, 1, 1, 0.5);
+    add_card(&far, -1, -1, 1, 1, -0.5);
+    for (int i = 0; i < 2; i++)
+        near.opacity[i] = far.opacity[i] = 0.7f;
+    struct render_skin skins[2] = {skin_of(&near, 0.3f, 0.3f, 0.3f), skin_of(&far, 0.3f, 0.3f, 0.3f)};
+    static const float stretch[2] = {4, 4};
+    skins[0].stretch = skins[1].stretch = stretch;
+    skins[0].rest_opacity = skins[1].rest_opacity = 0.7f;
+    struct render_view view = square_view();
+    for (int style = RENDER_PAPER; style <= RENDER_LATEX; style++)
+        for (int order = RENDER_NONE; order <= RENDER_LIST; order++) {
+            view.style = (enum render_style)style;
+            view.order = (enum render_order)order;
+            const double alone = green_of_a_line(&view, NULL, 0, 0);
+            const double before = green_of_a_line(&view, skins, 2, 1),
+                         behind = green_of_a_line(&view, skins, 2, -1);
+            assert_near(before, alone, 0.02 * alone);
+            assert_true(behind > 0.01 * alone && behind < 0.4 * alone);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -238,6 +282,7 @@ int main(void)
         cmocka_unit_test(pictures_are_srgb),
         cmocka_unit_test(a_floor_takes_a_shadow_and_none_is_seen_from_below),
         cmocka_unit_test(a_shadow_has_no_edge),
+        cmocka_unit_test(a_line_behind_translucent_skin_is_seen_through_it),
     };
     return cmocka_run_group_tests(tests, open_renderer, close_renderer);
 }
