@@ -47,6 +47,17 @@ const char shader_paper_vertex[] = "#version 330 core\n"
     "    return 0.25 * part.x * part.y;\n"                                                             \
     "}\n"
 
+/* The normal n of the side that is seen, and its cosine with the line of sight; what is seen from its edge is
+ * turned towards the eye a little. */
+#define FACING                                                               \
+    "    vec3 to_eye = normalize(skin_to_eye);\n"                            \
+    "    vec3 n = normalize(gl_FrontFacing ? skin_normal : -skin_normal);\n" \
+    "    float facing = dot(n, to_eye);\n"                                   \
+    "    if (facing < 0.02) {\n"                                             \
+    "        n = normalize(n + (0.02 - facing) * to_eye);\n"                 \
+    "        facing = 0.02;\n"                                               \
+    "    }\n"
+
 /*
  * Rubber in a small studio that is fixed to the camera: a large key light above on the left, a weak fill from
  * the right, light from the room, and some that comes through thin skin from behind. Both sides are lit.
@@ -65,15 +76,7 @@ const char shader_paper_vertex[] = "#version 330 core\n"
 #define PAPER                                                                                               \
     "in vec3 skin_normal, skin_to_eye, skin_colour;\n"                                                      \
     "in float skin_opacity, skin_shininess;\n" STUDIO BOXES "void shade(out vec3 added, out vec3 passes)\n" \
-    "{\n"                                                                                                   \
-    "    vec3 to_eye = normalize(skin_to_eye);\n"                                                           \
-    "    vec3 n = normalize(gl_FrontFacing ? skin_normal : -skin_normal);\n"                                \
-    "    float facing = dot(n, to_eye);\n"                                                                  \
-    "    if (facing < 0.02) {\n"                                                                            \
-    "        n = normalize(n + (0.02 - facing) * to_eye);\n"                                                \
-    "        facing = 0.02;\n"                                                                              \
-    "    }\n"                                                                                               \
-    "    float path = inversesqrt(1.0 - (1.0 - facing * facing) / 2.31);\n"                                 \
+    "{\n" FACING "    float path = inversesqrt(1.0 - (1.0 - facing * facing) / 2.31);\n"                    \
     "    vec3 hold = 1.0 + 1.4 * (dot(skin_colour, vec3(1.0 / 3.0)) - skin_colour);\n"                      \
     "    passes = pow(vec3(max(1.0 - skin_opacity, 1e-6)), path * hold);\n"                                 \
     "    if (skin_opacity > 0.999)\n"                                                                       \
@@ -150,15 +153,7 @@ const char shader_latex_vertex[] =
 #define LATEX                                                                                              \
     "in vec3 skin_normal, skin_to_eye, skin_depth, skin_outside, skin_inside;\n"                           \
     "in float skin_roughness, skin_closed;\n" STUDIO BOXES "void shade(out vec3 added, out vec3 passes)\n" \
-    "{\n"                                                                                                  \
-    "    vec3 to_eye = normalize(skin_to_eye);\n"                                                          \
-    "    vec3 n = normalize(gl_FrontFacing ? skin_normal : -skin_normal);\n"                               \
-    "    float facing = dot(n, to_eye);\n"                                                                 \
-    "    if (facing < 0.02) {\n"                                                                           \
-    "        n = normalize(n + (0.02 - facing) * to_eye);\n"                                               \
-    "        facing = 0.02;\n"                                                                             \
-    "    }\n"                                                                                              \
-    "    float rough = min(0.886 * skin_roughness, 1.0);\n"                                                \
+    "{\n" FACING "    float rough = min(0.886 * skin_roughness, 1.0);\n"                                   \
     "    float turned = sqrt(mix(facing * facing, 1.0, rough * rough));\n"                                 \
     "    float inner = sqrt(1.0 - (1.0 - turned * turned) / 2.3104);\n"                                    \
     "    float across = (turned - 1.52 * inner) / (turned + 1.52 * inner);\n"                              \
