@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 struct surface_options surface_defaults(void)
@@ -192,22 +193,38 @@ static enum status choose_cube(const struct making *making, double *cube, struct
     return STATUS_OK;
 }
 
-/* Says why there is no surface. */
+/* Cubes smaller than this share of sigma are not tried, but some are in any case. */
+#define SMALLEST_SHARE 0.01
+
+/* Says why there is no surface. What is said to work was tried as it is written. */
 static enum status explain_nothing(const struct making *making, double cube, struct error *err)
 {
     if (check_reached(making, err))
         return err->status;
-    double works = fmin(cube, 2 * (making->field.side + making->field.reach));
+    const double side = making->field.side;
+    double works = fmin(cube, 2 * (side + making->field.reach)) / side;
+    const double least = fmin(SMALLEST_SHARE * making->field.sigma / side, works / 4);
     size_t count = 0;
-    for (int turn = 0; turn < 40 && count == 0; turn++) {
-        works /= 1.25;
-        if (count_triangles(making, works, &count, err))
-            return err->status;
+    enum status status = STATUS_OK;
+    while (count == 0 && !status && works > least) {
+        char written[32];
+        snprintf(written, sizeof written, "%.4g", works / 1.25);
+        const double smaller = strtod(written, NULL);
+        struct error why;
+        status = count_triangles(making, smaller * side, &count, &why);
+        works = status ? works : smaller;
     }
+    if (status == STATUS_NO_MEMORY)
+        return error_no_memory(err, "the surface");
+    if (count == 0)
+        return error_set(err, STATUS_RANGE,
+                         "a cube size of %g is too large: no corner of a cube falls inside the surface, nor "
+                         "of any smaller one that was tried, down to %.4g; lower the threshold",
+                         cube / side, works);
     return error_set(
         err, STATUS_RANGE,
         "a cube size of %g is too large: no corner of a cube falls inside the surface; %.4g works",
-        cube / making->field.side, works / making->field.side);
+        cube / side, works);
 }
 
 static enum status relax(const struct making *making, struct mesh *mesh, struct error *err)

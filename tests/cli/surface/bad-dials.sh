@@ -41,3 +41,16 @@ refused 2 'fields-per-area must be above 0' balloon-surface cube.oct --fields-pe
 refused 2 'cutoff 9: must be' balloon-surface cube.oct --cutoff 9 -o a.ply
 refused 2 'must be descent or random' balloon-surface cube.oct --seeds often -o a.ply
 only_files cube.oct ball.chips ball.oct b.ply
+
+# What is said to work does, also where little of the field reaches the threshold, and else it is said that none does.
+printf 'depth 3\nstart empty\nfill box 0.25 0.25 0.25 0.375 0.375 0.375\n' >little.chips
+expect 0 balloon-sculpt --script little.chips -o little.oct
+for top in 3 5; do
+    refused 1 'is too large: no corner of a cube falls inside the surface; .* works$' \
+        balloon-surface little.oct --sigma 0.5 --threshold 0.318177$top -o a.ply
+    works=$(sed 's/.*surface; \(.*\) works/\1/' .stderr)
+    expect 0 balloon-surface -q little.oct --sigma 0.5 --threshold 0.318177$top -o a.ply --cube-size "$works"
+    rm a.ply
+done
+refused 1 'is too large: no corner of a cube falls inside the surface, nor of any smaller one that was tried, down to .*; lower the threshold$' \
+    balloon-surface little.oct --sigma 0.5 --threshold 0.31817764 -o a.ply
