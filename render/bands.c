@@ -116,7 +116,7 @@ static void find_box(const struct band *band, int box[4])
         box[i] = result[i];
 }
 
-/* Backdrop and shadow where the target is read from, or, with several samples a pixel, where it is drawn. A
+/* Backdrop and shadows where the target is read from, or, with several samples a pixel, where it is drawn. A
  * picture in one band has the same backdrop as the one before it. */
 static void draw_behind(const struct band *band, bool smoothly)
 {

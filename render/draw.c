@@ -140,24 +140,25 @@ void draw_backdrop(const struct draw *draw, const struct gl *gl, const struct dr
 void draw_shadow(const struct draw *draw, const struct gl *gl, const struct draw_place *place,
                  const struct camera_eye *eye, const struct geometry *geometry)
 {
-    const struct geometry_shadow *shadow = &geometry->shadow;
     float projection[16];
     set_place(gl, place);
     gl->DepthMask(GL_TRUE);
     gl->Disable(GL_SCISSOR_TEST); /* clearing all is free, a part is drawn */
     gl->Clear(GL_DEPTH_BUFFER_BIT);
     gl->Enable(GL_SCISSOR_TEST);
-    if (!shadow->visible)
+    if (!geometry->shadows.count)
         return;
     camera_projection(eye, geometry->nearest, geometry->farthest, projection);
     gl->Enable(GL_BLEND);
     gl->BlendFunc(GL_DST_COLOR, GL_ZERO);
     gl->UseProgram(draw->shadow);
     gl->UniformMatrix4fv(draw->shadow_projection, 1, GL_FALSE, projection);
-    gl->Uniform3fv(draw->shadow_corner, 4, shadow->corner[0]);
-    gl->Uniform3fv(draw->shadow_left, 1, shadow->colour);
     gl->BindVertexArray(draw->nothing);
-    gl->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    for (size_t i = 0; i < geometry->shadows.count; i++) {
+        gl->Uniform3fv(draw->shadow_corner, 4, geometry->shadows.items[i].corner[0]);
+        gl->Uniform3fv(draw->shadow_left, 1, geometry->shadows.items[i].colour);
+        gl->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    }
 }
 
 static void use_skin(const struct draw *draw, const struct gl *gl, const struct draw_program *skin,

@@ -58,7 +58,7 @@ enum status draw_ready(struct draw *draw, const struct gl *gl, enum render_style
 /* Sets the viewport and draws the backdrop within the scissor's rectangle. */
 void draw_backdrop(const struct draw *draw, const struct gl *gl, const struct draw_place *place);
 
-/* Over it the shadow as one eye sees it; and begins the depth there anew. */
+/* Over it the shadows as one eye sees them; and begins the depth there anew. */
 void draw_shadow(const struct draw *draw, const struct gl *gl, const struct draw_place *place,
                  const struct camera_eye *eye, const struct geometry *geometry);
 

@@ -277,6 +277,19 @@ static void see_points(struct geometry *g, const struct camera_space *space, con
     }
 }
 
+static void add_shadow(struct geometry *g, const struct camera_space *space, double height,
+                       const struct render_skin *skin)
+{
+    struct geometry_shadow *shadow = &g->shadows.items[g->shadows.count];
+    if (!geometry_cast_shadow(shadow, space, height, skin))
+        return;
+    g->shadows.count++;
+    for (int k = 0; k < 4; k++) {
+        g->nearest = fmin(g->nearest, -shadow->corner[k][2]);
+        g->farthest = fmax(g->farthest, -shadow->corner[k][2]);
+    }
+}
+
 enum status geometry_build(struct geometry *g, const struct render_view *view,
                            const struct render_skin *skins, size_t skin_count, const double (*others)[3],
                            size_t other_count, struct error *err)
@@ -301,13 +314,11 @@ enum status geometry_build(struct geometry *g, const struct render_view *view,
             return status;
     }
     see_points(g, &space, others, other_count);
-    g->shadow.visible = false;
-    if (view->floor)
-        geometry_cast_shadow(&g->shadow, &space, view->floor_height, skins, skin_count);
-    for (int k = 0; k < 4 && g->shadow.visible; k++) {
-        g->nearest = fmin(g->nearest, -g->shadow.corner[k][2]);
-        g->farthest = fmax(g->farthest, -g->shadow.corner[k][2]);
-    }
+    g->shadows.count = 0;
+    if (view->floor && !ARRAY_RESERVE(&g->shadows, skin_count))
+        return error_no_memory(err, "the shadows to draw");
+    for (size_t i = 0; i < skin_count && view->floor; i++)
+        add_shadow(g, &space, view->floor_height, &skins[i]);
     g->farthest = fmin(fmax(g->farthest * 1.01, 2 * nearest_drawn), farthest_drawn);
     g->nearest = fmin(fmax(g->nearest * 0.99, nearest_drawn), g->farthest / 2);
     return order_indices(g, view->order == RENDER_SORT, err);
@@ -322,5 +333,6 @@ void geometry_clear(struct geometry *g)
     free(g->indices.items);
     free(g->sums.items);
     free(g->fans.items);
+    free(g->shadows.items);
     *g = (struct geometry){0};
 }

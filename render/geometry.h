@@ -35,12 +35,10 @@ struct geometry_latex {
     float closed;    /* 1: light bounces inside, 0: it is torn open */
 };
 
-/* The shadow that the skins cast from above onto the floor: a Gaussian with their area's mean and
- * covariance. */
+/* The shadow that a skin casts from above onto the floor: a Gaussian with its area's mean and covariance. */
 struct geometry_shadow {
     float corner[4][3]; /* in camera space, at +-3 standard deviations: (-,-), (+,-), (-,+), (+,+) */
     float colour[3];    /* of the light that is left in its middle, for white light from above */
-    bool visible;
 };
 
 struct geometry {
@@ -65,8 +63,11 @@ struct geometry {
         size_t count, capacity;
     } fans;                   /* of a latex skin's points */
     double low[2], high[2];   /* x and y at distance 1 between which every corner appears */
-    double nearest, farthest; /* distances that hold every triangle in sight, and the shadow */
-    struct geometry_shadow shadow;
+    double nearest, farthest; /* distances that hold every triangle in sight, and the shadows */
+    struct {
+        struct geometry_shadow *items;
+        size_t count, capacity;
+    } shadows; /* one for each skin that casts one: each takes its share of the light that the others leave */
 };
 
 /* `view` has been checked. `others` are points of the scene that shall be in sight too (low .. farthest):
@@ -88,8 +89,8 @@ bool latex_is_rim(const struct geometry_fan *fan);
 extern const float latex_rim;    /* how much thicker */
 extern const float latex_opaque; /* film from which on nothing shows through */
 
-/* Lays the skins' shadow on the floor y = height. shadow.c */
-void geometry_cast_shadow(struct geometry_shadow *shadow, const struct camera_space *space, double height,
-                          const struct render_skin *skins, size_t skin_count);
+/* Lays the skin's shadow on the floor y = height. False where there is none. shadow.c */
+bool geometry_cast_shadow(struct geometry_shadow *shadow, const struct camera_space *space, double height,
+                          const struct render_skin *skin);
 
 #endif

@@ -1,5 +1,5 @@
 /*
- * The soft shadow. A wide light above sees the skins as a cloud of small screens; their shadow is taken to be
+ * The soft shadow. A wide light above sees a skin as a cloud of small screens; its shadow is taken to be
  * the Gaussian of the same mean, covariance and amount, widened by the height above the floor.
  */
 #include "render/geometry.h"
@@ -10,7 +10,7 @@
 
 static const double spread = 0.25; /* standard deviation gained for each unit of height: the light's size */
 static const double reach = 3;     /* standard deviations that are drawn */
-static const double darkest = 0.8; /* share of the light from above that the skins can take at most */
+static const double darkest = 0.8; /* share of the light from above that a skin can take at most */
 static const double light_share = .5; /* of what thin skin lets through, still in its colour */
 
 struct screens {
@@ -20,7 +20,7 @@ struct screens {
     double colour[3];
 };
 
-/* Adds triangle t with weight area x opacity; squares are taken from `origin`, near the skins. */
+/* Adds triangle t with weight area x opacity; squares are taken from `origin`, near the skin. */
 static void add_screen(struct screens *sum, const struct render_skin *skin, uint32_t t,
                        const double origin[3])
 {
@@ -43,14 +43,12 @@ static void add_screen(struct screens *sum, const struct render_skin *skin, uint
 }
 
 /* False where there is nothing to cast a shadow. */
-static bool sum_screens(struct screens *sum, const double origin[3], const struct render_skin *skins,
-                        size_t skin_count)
+static bool sum_screens(struct screens *sum, const double origin[3], const struct render_skin *skin)
 {
     *sum = (struct screens){0};
-    for (size_t i = 0; i < skin_count; i++)
-        for (uint32_t t = 0; t < skins[i].mesh->triangle_count; t++)
-            if (!skins[i].active || skins[i].active[t])
-                add_screen(sum, &skins[i], t, origin);
+    for (uint32_t t = 0; t < skin->mesh->triangle_count; t++)
+        if (!skin->active || skin->active[t])
+            add_screen(sum, skin, t, origin);
     if (!(sum->area > 0) || !isfinite(sum->area))
         return false;
     for (int i = 0; i < 3; i++) {
@@ -77,18 +75,16 @@ static void place_corners(struct geometry_shadow *shadow, const struct camera_sp
     }
 }
 
-void geometry_cast_shadow(struct geometry_shadow *shadow, const struct camera_space *space, double height,
-                          const struct render_skin *skins, size_t skin_count)
+bool geometry_cast_shadow(struct geometry_shadow *shadow, const struct camera_space *space, double height,
+                          const struct render_skin *skin)
 {
     struct screens sum;
-    /* the target: the origin of squares must be near the skins, or their differences drown in round-off */
+    /* the target: the origin of squares must be near the skin, or their differences drown in round-off */
     double origin[3];
     for (int i = 0; i < 3; i++)
         origin[i] = space->origin[i] - space->axis[2][i] / space->scale;
-    shadow->visible = isfinite(height) && space->origin[1] > height &&
-                      sum_screens(&sum, origin, skins, skin_count);
-    if (!shadow->visible)
-        return;
+    if (!isfinite(height) || !(space->origin[1] > height) || !sum_screens(&sum, origin, skin))
+        return false;
     double above = fmax(sum.mean[1] + origin[1] - height, 0);
     double wider = spread * spread * above * above + 1e-12 / (space->scale * space->scale);
     sum.xx += wider;
@@ -100,4 +96,5 @@ void geometry_cast_shadow(struct geometry_shadow *shadow, const struct camera_sp
     double taken = darkest * (1 - exp(-depth));
     for (int i = 0; i < 3; i++)
         shadow->colour[i] = (float)(1 - taken * (1 - light_share * sum.colour[i]));
+    return true;
 }

@@ -226,6 +226,46 @@ static void a_shadow_has_no_edge(void **state)
     sphere_free(&mesh);
 }
 
+/* Two balloons far from each other: the floor between them is as it is without, and below one of them as if
+ * it were alone. */
+static void each_skin_has_a_shadow_of_its_own(void **state)
+{
+    (void)state;
+    struct mesh meshes[2] = {sphere_new(20, 20), sphere_new(20, 20)};
+    struct render_skin skins[2];
+    for (int i = 0; i < 2; i++) {
+        skins[i] = (struct render_skin){.mesh = &meshes[i], .colour = {0.7f, 0.1f, 0.1f}};
+        for (uint32_t p = 0; p < meshes[i].point_count; p++) {
+            for (int k = 0; k < 3; k++)
+                meshes[i].position[p][k] *= 0.3;
+            meshes[i].position[p][0] += i ? 1.5 : -1.5;
+        }
+    }
+    struct render_view view = square_view();
+    view.camera.eye[1] = 4;
+    struct image without = drawn(&view, skins, 2);
+    view.floor = true;
+    view.floor_height = -0.35;
+    struct image one = drawn(&view, skins, 1), both = drawn(&view, skins, 2);
+    int darkest = 0;
+    for (int y = 0; y < 200; y++)
+        for (int x = 0; x < 200; x++) {
+            const int light = pixel(&both, x, y)[1];
+            if (abs(x - 100) < 20)
+                assert_near(light, pixel(&without, x, y)[1], 1);
+            if (x < 100)
+                assert_near(light, pixel(&one, x, y)[1], 1);
+            const int taken = pixel(&without, x, y)[1] - light;
+            darkest = x > 120 && taken > darkest ? taken : darkest;
+        }
+    assert_true(darkest > 20);
+    image_clear(&without);
+    image_clear(&one);
+    image_clear(&both);
+    for (int i = 0; i < 2; i++)
+        sphere_free(&meshes[i]);
+}
+
 /* How green the middle is of a picture of cards, the line before or behind them at z. */
 static double green_of_a_line(const struct render_view *view, const struct render_skin *skins, size_t count,
                               double z)
@@ -282,6 +322,7 @@ int main(void)
         cmocka_unit_test(pictures_are_srgb),
         cmocka_unit_test(a_floor_takes_a_shadow_and_none_is_seen_from_below),
         cmocka_unit_test(a_shadow_has_no_edge),
+        cmocka_unit_test(each_skin_has_a_shadow_of_its_own),
         cmocka_unit_test(a_line_behind_translucent_skin_is_seen_through_it),
     };
     return cmocka_run_group_tests(tests, open_renderer, close_renderer);
