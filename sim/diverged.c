@@ -71,6 +71,10 @@ enum status sim_diverged(struct sim *sim, double energy, struct error *err)
             "steps of %g are surely stable at the speeds of the start only, and drag grows with speed: try a "
             "smaller time.step",
             sim->step);
+    else if (sim->scene->time.guard == SCENE_GUARD_OFF)
+        snprintf(advice, sizeof advice,
+                 "what is left is stable in such steps, and time.guard = \"off\" asks for no more: try "
+                 "time.guard=substep");
     return error_set(
         err, STATUS_DIVERGED,
         "%s: diverged at time %g (step %llu): point %u of balloons[%zu] is at (%g, %g, %g), moving at "
