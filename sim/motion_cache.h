@@ -16,8 +16,8 @@ char *motion_cache_mesh_name(const char *path);
 enum status motion_cache_open(struct sim *sim, const char *path, uint64_t first, struct motion_cache **cache,
                               struct error *err);
 
-/* Adds the state as it is. Errors: those of writing the mesh, with the first. */
-enum status motion_cache_add(struct motion_cache *cache, struct error *err);
+/* Adds the state as it is. What fails is told by close. */
+void motion_cache_add(struct motion_cache *cache);
 
 /* Ends it; frees the cache, whatever it returns. NULL is fine. Errors: STATUS_FILE. */
 enum status motion_cache_close(struct motion_cache *cache, struct error *err);

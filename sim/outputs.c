@@ -77,7 +77,7 @@ static enum status show_state(struct outputs *outputs, struct sim *sim, struct e
     if (outputs->series)
         status = mesh_series_add(outputs->series, err);
     if (outputs->cache && !status)
-        status = motion_cache_add(outputs->cache, err);
+        motion_cache_add(outputs->cache);
     if (status || !outputs->film || outputs->turntable_frames)
         return status;
     if (outputs->turntable)

@@ -79,12 +79,10 @@ static enum status write_motion(struct error *err)
 {
     struct motion_cache *cache = NULL;
     enum status status = motion_cache_open(&balloon.sim, "motion.pc2", 0, &cache, err);
-    if (!status)
-        status = motion_cache_add(cache, err);
-    if (!status)
-        return motion_cache_close(cache, err);
-    motion_cache_abandon(cache);
-    return status;
+    if (status)
+        return status;
+    motion_cache_add(cache);
+    return motion_cache_close(cache, err);
 }
 
 static void a_cache_of_motion_is_written_or_it_is_said_why_not(void **state)
