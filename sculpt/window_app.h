@@ -144,7 +144,7 @@ void app_draw(struct app *app);
 
 /* window_text.c: what there is to be read; it is good until the next call. */
 enum { WINDOW_TEXTS_MAX = 4 };
-size_t app_texts(const struct app *app, struct render_text texts[WINDOW_TEXTS_MAX]);
+size_t app_texts(struct app *app, struct render_text texts[WINDOW_TEXTS_MAX]);
 
 /* window_bricks.c: brings the faces of a level up to date with the session's changes, for this long, and sets
  * app->shown: a coarser one where that was not enough. */

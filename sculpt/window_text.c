@@ -85,25 +85,6 @@ static void describe_question(const struct app *app, char *text, size_t size)
     }
 }
 
-/* Breaks lines that are longer than this many letters, at a space where there is one. */
-static void wrap(char *text, int columns)
-{
-    char *line = text, *space = NULL;
-    for (char *at = text; *at; at++) {
-        if (*at == '\n') {
-            line = at + 1;
-            space = NULL;
-        } else if (*at == ' ') {
-            space = at;
-        }
-        if (at - line >= columns && space) {
-            *space = '\n';
-            line = space + 1;
-            space = NULL;
-        }
-    }
-}
-
 /* A text that fits into the width of an eye's picture, at this height; from the lower
  * border if that is negative. */
 static void add_text(const struct app *app, struct render_text *texts, size_t *count, char storage[TEXT_SIZE],
@@ -116,7 +97,7 @@ static void add_text(const struct app *app, struct render_text *texts, size_t *c
     render_text_size(text, &w, &h);
     if (x + w > size[0]) {
         text->scale = 1;
-        wrap(storage, (size[0] - x - MARGIN - 2 * BOX_MARGIN) / LETTER_WIDTH);
+        hints_wrap(storage, (size[0] - x - MARGIN - 2 * BOX_MARGIN) / LETTER_WIDTH);
         render_text_size(text, &w, &h);
     }
     if (y < 0)
@@ -140,22 +121,27 @@ static bool covers(const struct app *app, const struct render_text *texts, size_
 }
 
 /* The list of keys between the other texts, in small letters where there is not much room, and in the place
- * of the others where there is less. */
-static void add_help(const struct app *app, struct render_text *texts, size_t *count,
+ * of the others, page by page, where there is less. */
+static void add_help(struct app *app, struct render_text *texts, size_t *count,
                      char storage[WINDOW_TEXTS_MAX][TEXT_SIZE], const float colour[3])
 {
     memcpy(storage[*count], help, sizeof help);
     add_text(app, texts, count, storage[*count], 3 * MARGIN, 6 * MARGIN, colour);
     if (covers(app, texts, *count))
         texts[*count - 1].scale = 1;
+    app->hints.pages = 1;
     if (!covers(app, texts, *count))
         return;
+    int size[2];
+    orbit_eye_size(&app->view, size);
     texts[0] = texts[*count - 1];
+    texts[0].text = storage[0];
     texts[0].x = texts[0].y = MARGIN;
+    hints_page(&app->hints, help, size[0] - 2 * MARGIN, size[1] - 2 * MARGIN, storage[0], TEXT_SIZE);
     *count = 1;
 }
 
-size_t app_texts(const struct app *app, struct render_text texts[WINDOW_TEXTS_MAX])
+size_t app_texts(struct app *app, struct render_text texts[WINDOW_TEXTS_MAX])
 {
     static const float white[3] = {1, 1, 1}, warm[3] = {1, 0.8f, 0.3f};
     static char storage[WINDOW_TEXTS_MAX][TEXT_SIZE];

@@ -129,22 +129,6 @@ static char *room(struct page *page)
     return page->storage[page->count];
 }
 
-/* Breaks a line that is longer than this many letters at its spaces. */
-static void wrap(char *text, int columns)
-{
-    char *line = text, *space = NULL;
-    for (char *at = text; *at; at++) {
-        if (*at == '\n' || *at == ' ')
-            space = at;
-        if (*at == '\n')
-            line = at + 1;
-        if (at - line >= columns && space >= line) {
-            *space = '\n';
-            line = space + 1;
-        }
-    }
-}
-
 static void add_sliders(const struct app *app, struct page *page)
 {
     for (int i = 0; i < LIVE_DIALS; i++) {
@@ -217,7 +201,7 @@ bool app_help_alone(const struct app *app)
 static bool add_wrapped(const struct app *app, struct page *page, const float colour[3], int *below)
 {
     int width, height;
-    wrap(room(page), (app_text_width(app) - 3 * MARGIN) / LETTER_WIDTH);
+    hints_wrap(room(page), (app_text_width(app) - 3 * MARGIN) / LETTER_WIDTH);
     render_text_size(add(page, MARGIN, *below, 1, colour, true), &width, &height);
     *below += height + MARGIN;
     return *below <= free_bottom(app);
@@ -282,8 +266,14 @@ size_t app_texts(struct app *app, struct render_text texts[WINDOW_TEXTS_MAX])
 {
     static char storage[WINDOW_TEXTS_MAX][TEXT_SIZE];
     struct page page = {texts, storage, 0};
+    app->hints.pages = 1;
     if (app_help_alone(app)) {
+        const struct panel_box eye = app_eye(app);
         texts[0] = help_at(MARGIN);
+        texts[0].x = MARGIN;
+        texts[0].text = storage[0];
+        hints_page(&app->hints, app_help, eye.width - 2 * MARGIN, eye.height - 2 * MARGIN, storage[0],
+                   TEXT_SIZE);
         return 1;
     }
     measure(app);

@@ -239,6 +239,38 @@ static void nothing_covers_anything_in_any_layout(void **state)
     close_balloon(&b);
 }
 
+/* F1 leads through its pages, of which each lies within the picture, and then hides it. */
+static void the_list_of_keys_is_whole_in_small_pictures(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{1280, 480}, {640, 320}, {640, 120}, {320, 160}, {160, 120}};
+    static const char *const keys[] = {"prick", "one step", "page up", "wires", "movie", "quit"};
+    struct balloon b;
+    struct error err = {0};
+    struct app app = {0};
+    open_balloon(&b, 2, SETTINGS("time.integrator=symplectic-euler"));
+    assert_ok(live_open(&app.live, &b.sim, 64 << 20, &err), &err);
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        int pages = 0, found[6] = {0};
+        eye = (struct panel_box){0, 0, sizes[i][0], sizes[i][1]};
+        for (hints_key(&app.hints, WINDOW_F1); app.hints.help; hints_key(&app.hints, WINDOW_F1)) {
+            struct render_text text;
+            int width, height;
+            assert_int_equal(count_texts(&app, "this help", &text), 1);
+            render_text_size(&text, &width, &height);
+            assert_true(text.x + width <= eye.width && text.y + height <= eye.height);
+            for (int k = 0; k < 6; k++)
+                found[k] += strstr(text.text, keys[k]) != NULL;
+            assert_true(pages++ < 20);
+        }
+        for (int k = 0; k < 6; k++)
+            assert_true(found[k] > 0);
+        assert_int_equal(pages > 1, i > 1);
+    }
+    live_close(&app.live);
+    close_balloon(&b);
+}
+
 /* Half of a window of 400 x 300 is narrow: a knob beyond its border could not be taken. */
 static void sliders_end_within_an_eyes_picture(void **state)
 {
@@ -272,6 +304,7 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_the_run_tells_is_on_the_picture),
                                        cmocka_unit_test(messages_go_by_and_complaints_stay),
                                        cmocka_unit_test(at_rest_there_is_no_energy),
+                                       cmocka_unit_test(the_list_of_keys_is_whole_in_small_pictures),
                                        cmocka_unit_test(sliders_end_within_an_eyes_picture),
                                        cmocka_unit_test(news_have_room_in_small_pictures),
                                        cmocka_unit_test(nothing_covers_anything_in_any_layout)};
