@@ -68,6 +68,10 @@ bool number_parse(const char *text, double *value);
  * begins. The texts are the caller's until progress_end(). */
 void progress_begin(const char *what, const char *size, const char *unit, double total);
 void progress_update(double done);
+
+/* What it is at where that cannot be measured, as "auto tries methods", for the bar and for notes that have no
+ * share to tell; NULL: no more. The text is the caller's until the next call. */
+void progress_say(const char *at);
 void progress_end(void);
 
 /* For a line of text on stderr: takes the bar out of its way, until the next update. */

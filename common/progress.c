@@ -18,6 +18,7 @@ static struct {
     pthread_mutex_t lock; /* for all that follows */
     pthread_cond_t ended;
     bool started;
+    const char *at;    /* what it is at, in words; or NULL */
     double from, done; /* from: what was done at the beginning, of a run that is gone on with */
     double shown;      /* when the bar was drawn last; */
     double told,
@@ -77,6 +78,8 @@ static void show_bar(double time)
         tell_number(rate, pace, sizeof pace);
         tell_time((progress.total - progress.done) / rate, left, sizeof left);
         fprintf(stderr, "  %s %s/s  %s left", pace, progress.unit, left);
+    } else if (progress.at) {
+        fprintf(stderr, "  %s", progress.at);
     }
     fputs(" \033[K", stderr);
     funlockfile(stderr);
@@ -114,8 +117,8 @@ static void tell(double spent)
         command_note("%s: %s%s%s %% is done after %s; at this pace the rest takes %s", progress.what, size,
                      comma, percent, so_far, rest);
     else
-        command_note("%s: %s%s%s have gone by without a measurable part being done", progress.what, size,
-                     comma, so_far);
+        command_note("%s: %s%s%s have gone by without a measurable part being done%s%s", progress.what, size,
+                     comma, so_far, progress.at ? ": " : "", progress.at ? progress.at : "");
     progress.told = spent;
     progress.told_share = share_done();
 }
@@ -175,6 +178,7 @@ void progress_begin(const char *what, const char *size, const char *unit, double
     progress.total = total;
     progress.began = now(CLOCK_MONOTONIC);
     progress.started = false;
+    progress.at = NULL;
     progress.from = progress.done = progress.shown = progress.told = progress.told_share = 0;
     if (!command_is_quiet())
         begin_watch();
@@ -190,6 +194,13 @@ void progress_update(double done)
     const double time = progress.bar ? now(CLOCK_MONOTONIC) : 0;
     if (progress.bar && time - progress.shown >= 0.1)
         show_bar(time);
+    pthread_mutex_unlock(&progress.lock);
+}
+
+void progress_say(const char *at)
+{
+    pthread_mutex_lock(&progress.lock);
+    progress.at = at;
     pthread_mutex_unlock(&progress.lock);
 }
 

@@ -147,8 +147,10 @@ static uint32_t trial_steps(const struct sim *sim, double parts)
 static void try_option(struct sim *sim, struct option *option)
 {
     const struct auto_method *m = sim->method;
+    sim->is_trying = true;
     option->result = trial_run(sim, candidates[option->candidate], m->own[option->candidate],
                                (uint32_t)option->parts, trial_steps(sim, option->parts), TRIAL_ROWS);
+    sim->is_trying = false;
 }
 
 /* In how many more parts it would keep the tolerance, by its order; of errors near the radius that says

@@ -143,8 +143,10 @@ static enum status step_to_end(struct run *run, struct error *err)
     return !status && run->options->checkpoint ? keep(run, err) : status;
 }
 
-static bool goes_on(void)
+/* Asked within a long step, also for word of what it is at. */
+static bool goes_on(const struct sim *sim)
 {
+    progress_say(sim->is_trying ? "auto tries methods on the scene as it is now" : NULL);
     return !interrupt_caught();
 }
 

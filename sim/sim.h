@@ -221,7 +221,8 @@ struct sim {
 
     /* Asked within what may be long in a step, the trials of auto and what a method takes in parts; false
      * ends it with STATUS_INTERRUPTED, as it was before. NULL: nobody asks. */
-    bool (*goes_on)(void);
+    bool (*goes_on)(const struct sim *sim);
+    bool is_trying; /* it is auto's trials that ask */
 
     /* What a method that chooses its own steps goes by and leaves. */
     double due;           /* s: where it must stop, at a change or the end; or INFINITY */
@@ -362,7 +363,7 @@ uint64_t sim_hash(struct sim *sim);
 
 static inline bool sim_goes_on(const struct sim *sim)
 {
-    return !sim->goes_on || sim->goes_on();
+    return !sim->goes_on || sim->goes_on(sim);
 }
 
 /* Applies one entry of the schedule (schedule.c). */

@@ -103,6 +103,28 @@ static void the_choice_is_the_same_for_any_number_of_threads(void **state)
     close_balloon(&one);
 }
 
+static int asked, asked_by_trials;
+
+static bool count_questions(const struct sim *sim)
+{
+    asked++;
+    asked_by_trials += sim->is_trying;
+    return true;
+}
+
+/* For word of what takes so long. */
+static void who_is_asked_in_a_trial_is_told_so(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_auto(&b, "time.tolerance=1e-3");
+    b.sim.goes_on = count_questions;
+    steps(&b, 1);
+    assert_true(asked_by_trials > 0 && asked_by_trials < asked); /* the choice asks, too */
+    assert_false(b.sim.is_trying);
+    close_balloon(&b);
+}
+
 /* With damping a step of rkn4 takes 28 forces: that it is no candidate is known without a trial, which would
  * take 84 at the least, as much as those of all others. */
 static void a_choice_takes_no_more_than_a_few_steps(void **state)
@@ -208,6 +230,7 @@ int main(void)
         cmocka_unit_test(it_says_what_it_has_chosen_and_why),
         cmocka_unit_test(it_chooses_again_when_the_schedule_stiffens_the_springs),
         cmocka_unit_test(the_choice_is_the_same_for_any_number_of_threads),
+        cmocka_unit_test(who_is_asked_in_a_trial_is_told_so),
         cmocka_unit_test(a_choice_takes_no_more_than_a_few_steps),
         cmocka_unit_test(trials_leave_no_trace),
         cmocka_unit_test(a_trial_ends_where_the_guard_would),
