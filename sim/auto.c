@@ -299,9 +299,12 @@ bool auto_describe(const struct sim *sim, uint64_t *choices, char *text, size_t 
     *choices = m->memory.choices;
     const double fastest = 2 / m->memory.stable, parts = m->memory.parts;
     snprintf(text, size,
-             "%s, %.0f substep%s: stiffness ratio %.3g, error %.1g radii a step%s, %.3g evaluations a step",
+             "%s, %.0f substep%s: stiffness ratio %.3g, error %.1g radii a step%s%s, %.3g evaluations a step",
              candidates[m->memory.candidate]->name, parts, parts == 1 ? "" : "s",
              fastest / sim->balloons[0].breathing_rate, m->memory.error,
+             candidates[m->memory.candidate]->flags & INTEGRATOR_IMPLICIT
+                 ? " but for what swings faster than its steps, which it damps"
+                 : "",
              m->memory.error > sim->scene->time.tolerance ? " (no method keeps time.tolerance)" : "",
              m->memory.work);
     return true;

@@ -191,6 +191,10 @@ static void stiff_skin_that_tears_is_given_to_an_implicit_method(void **state)
                           "balloons[0].rip.at=0.5"));
     steps(&b, 20);
     assert_true(b.sim.acting->flags & INTEGRATOR_IMPLICIT);
+    char text[256];
+    assert_true(auto_describe(&b.sim, &(uint64_t){0}, text, sizeof text));
+    assert_non_null(
+        strstr(text, " radii a step but for what swings faster than its steps, which it damps, "));
     assert_true(b.sim.broken + b.sim.balloons[0].topology->now.edges > 0);
     close_balloon(&b);
 }
