@@ -210,17 +210,17 @@ enum status file_out_open(const char *path, struct file_out **result, struct err
     if (!out)
         return error_no_memory(err, path);
     struct stat old, link;
-    bool exists = !stat(path, &old);
+    bool exists = !stat(path, &old), is_link = !lstat(path, &link) && S_ISLNK(link.st_mode);
     bool replaced = !exists || S_ISREG(old.st_mode); /* a pipe's resolved name leads nowhere */
-    out->target = exists && replaced ? realpath(path, NULL) : strdup(path);
+    out->target = exists && replaced && is_link ? realpath(path, NULL) : strdup(path);
     enum status status = STATUS_OK;
-    if (!exists && !lstat(path, &link) && S_ISLNK(link.st_mode)) {
+    if (!exists && is_link) {
         status = error_set(err, STATUS_FILE,
                            "%s: is a link that leads nowhere; make what it leads to, or remove it", path);
     } else if (exists && S_ISDIR(old.st_mode)) {
         status = error_set(err, STATUS_FILE, "%s: is a folder; give the name of a file in it", path);
     } else if (!out->target) {
-        status = error_no_memory(err, path);
+        status = errno == ENOMEM ? error_no_memory(err, path) : error_set_errno(err, path, "follow the link");
     } else if (!replaced) {
         out->stream = fopen(path, "wbe");
         if (!out->stream)

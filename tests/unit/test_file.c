@@ -268,6 +268,26 @@ static void a_link_that_leads_nowhere_is_not_replaced(void **state)
     }
 }
 
+/* Whose full name is longer than the system takes. */
+static void a_file_far_down_is_replaced(void **state)
+{
+    enum { DEPTH = 25, LONG = 200 };
+    char name[LONG + 1] = "";
+    struct error err = {0};
+    (void)state;
+    memset(name, 'd', LONG);
+    for (int i = 0; i < DEPTH; i++)
+        assert_false(mkdir(name, 0777) || chdir(name));
+    for (int i = 0; i < 2; i++) {
+        struct file_out *out;
+        assert_ok(file_out_open("a", &out, &err), &err);
+        assert_ok(file_out_commit(out, &err), &err);
+    }
+    unlink("a");
+    for (int i = 0; i < DEPTH; i++)
+        assert_false(chdir("..") || rmdir(name));
+}
+
 static void make_empty(const char *path)
 {
     FILE *stream = fopen(path, "w");
@@ -308,6 +328,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_link_that_leads_nowhere_is_not_replaced),
         cmocka_unit_test(no_file_is_written_twice_or_read_too),
+        cmocka_unit_test(a_file_far_down_is_replaced),
         cmocka_unit_test(a_committed_file_replaces_the_old_one),
         cmocka_unit_test(an_abandoned_file_leaves_the_old_one_and_nothing_else),
         cmocka_unit_test(a_program_that_is_killed_leaves_nothing_else),
