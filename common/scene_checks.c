@@ -144,6 +144,15 @@ static void write_place(const struct scene *scene, unsigned line, char *text, si
 enum status scene_check_surroundings(const struct scene *scene, struct error *err)
 {
     char place[256];
+    if (is_nowhere(scene->view.camera)) {
+        const struct scene_block *view = scene_find_block("", "view");
+        const int line = scene_line_of(view, &scene->view, scene_find_field(view, "camera"));
+        write_place(scene, line > 0 ? (unsigned)line : 0, place, sizeof place);
+        return error_set(err, STATUS_INPUT,
+                         "%s: view: the camera sees nothing: camera = [0, 0, 0] lies in its target; give "
+                         "where the eye is, seen from there, such as [0.0, 1.2, 8.0]",
+                         place);
+    }
     if (scene->ground.on && is_nowhere(scene->ground.normal)) {
         write_place(scene, scene->ground.line, place, sizeof place);
         return error_set(err, STATUS_INPUT,

@@ -282,6 +282,17 @@ static void set_changes_any_key_by_its_path(void **state)
     scene_clear(&scene);
 }
 
+/* By --check and runs without pictures too: else it fails once the first picture is to be drawn. */
+static void a_camera_in_its_target_is_refused(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct scene scene = {0};
+    assert_refused(
+        load("balloons = ( { mesh = \"a.ply\"; } );\nview = {\n  camera = [0, 0, 0]; };", &scene, &err),
+        STATUS_INPUT, ":3: view: the camera sees nothing", &err);
+}
+
 static void every_default_is_within_its_own_range(void **state)
 {
     (void)state;
@@ -363,6 +374,7 @@ int main(void)
         cmocka_unit_test(slips_around_quotes_are_found),
         cmocka_unit_test(whole_numbers_that_would_be_cut_to_32_bits_are_refused),
         cmocka_unit_test(set_changes_any_key_by_its_path),
+        cmocka_unit_test(a_camera_in_its_target_is_refused),
         cmocka_unit_test(every_default_is_within_its_own_range),
         cmocka_unit_test(scenes_are_told_apart_by_the_keys_that_a_state_depends_on),
     };
