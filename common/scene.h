@@ -182,6 +182,7 @@ struct scene_balloon {
     double radius;      /* mean distance of the points from their centre; 0: as the mesh has it */
     double position[3]; /* of that centre */
     double point_mass, spring, spring_factor, damping;
+    int mass_by;               /* enum scene_mass_by */
     int stiffness;             /* enum scene_stiffness */
     int threshold_of;          /* enum scene_threshold_of */
     double threshold;          /* an edge lets go at this length over the mean rest length */
@@ -274,6 +275,7 @@ extern const char *const scene_squeezed_names[];
 extern const char *const scene_style_names[];
 extern const char *const scene_order_names[];
 extern const char *const scene_shape_names[];
+extern const char *const scene_mass_by_names[];
 extern const char *const scene_stiffness_names[];
 extern const char *const scene_threshold_of_names[];
 extern const char *const scene_law_names[];
@@ -285,6 +287,7 @@ enum scene_pressure_on { SCENE_ON_POINTS, SCENE_ON_AREAS };
 enum scene_process { SCENE_ISOTHERMAL, SCENE_ADIABATIC };
 enum scene_style { SCENE_LATEX, SCENE_PAPER };
 enum scene_order { SCENE_ORDER_NONE, SCENE_ORDER_SORT, SCENE_ORDER_PEEL, SCENE_ORDER_LIST };
+enum scene_mass_by { SCENE_BY_POINTS, SCENE_BY_AREAS };
 enum scene_stiffness { SCENE_UNIFORM, SCENE_COTANGENT };
 enum scene_threshold_of { SCENE_OF_MEAN, SCENE_OF_EDGE };
 enum scene_rest { SCENE_AS_MESHED, SCENE_FLAT };

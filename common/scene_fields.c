@@ -30,6 +30,7 @@ const char *const scene_squeezed_names[] = {"no", "yes", NULL};
 const char *const scene_shape_names[] = {"sphere", "box", NULL};
 const char *const scene_style_names[] = {"latex", "paper", NULL};
 const char *const scene_order_names[] = {"none", "sort", "peel", "list", NULL};
+const char *const scene_mass_by_names[] = {"points", "areas", NULL};
 const char *const scene_stiffness_names[] = {"uniform", "cotangent", NULL};
 const char *const scene_threshold_of_names[] = {"mean", "edge", NULL};
 const char *const scene_rest_names[] = {"as_meshed", "flat", NULL};

@@ -55,6 +55,9 @@
       "mean distance of points from their centre; 0: as in the mesh", "")                                    \
     X(position, VECTOR, -1e6, 1e6, "[0.0, 0.0, 0.0]", "length", 0, "of that centre", "")                     \
     X(point_mass, NUMBER, 1e-9, 1e9, "0.11", "mass", 0, "of each point", "paper 3.1")                        \
+    X(mass_by, CHOICE, 0, 0, "\"points\"", "", 0,                                                            \
+      "points: all have point_mass; areas: so in the mean, and each by the skin around it, as in a sheet",   \
+      "")                                                                                                    \
     X(spring, NUMBER, 0, 1e9, "20", "force/length", 0, "spring constant of each edge", "paper 4")            \
     X(stiffness, CHOICE, 0, 0, "\"uniform\"", "", 0,                                                         \
       "of the springs: all alike, or as a uniform sheet has it", "Pinkall and Polthier 1993")                \

@@ -6,6 +6,7 @@
 #include "sim/guard.h"
 #include "sim/kernels.h"
 #include "sim/ledger.h"
+#include "sim/springs.h"
 #include "sim/topology.h"
 #include "sim/vectors.h"
 
@@ -184,6 +185,8 @@ static enum status fill_balloon(struct sim *sim, struct sim_balloon *b, const st
         copy_triangles(sim, b, mesh, &places);
         if (b->scene->stiffness == SCENE_COTANGENT)
             springs_by_cotangent(sim, b);
+        if (b->scene->mass_by == SCENE_BY_AREAS)
+            springs_mass_by_area(sim, b);
         b->own_thresholds = b->scene->threshold_of == SCENE_OF_EDGE;
         *b->now = (struct sim_settings){b->scene->spring_factor,
                                         b->scene->damping,

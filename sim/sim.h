@@ -384,12 +384,6 @@ bool sim_at_end(const struct sim *sim);
 void sim_look(struct sim *sim, double time);
 void sim_look_end(struct sim *sim);
 
-/* Spring constants in proportion to the cotangents of the two angles across an edge at rest, so that an
- * irregular mesh is stretched evenly by an even pull, as a uniform sheet is (Pinkall and Polthier,
- * Experimental Mathematics 2, 1993): the forces at a point are sum k (L - 1) r u = (L - 1) sum k (x_q - x_p),
- * which are 0 for these k in any flat mesh. 0 where the sum is negative. */
-void springs_by_cotangent(struct sim *sim, const struct sim_balloon *balloon);
-
 /* Makes sim->past where the method can look into its steps (STATUS_NO_MEMORY); remembers how
  * a step begins (look.c). */
 enum status look_open(struct sim *sim, struct error *err);

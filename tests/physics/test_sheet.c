@@ -1,4 +1,5 @@
-/* Springs by cotangents: an irregular sheet that is pulled evenly is stretched evenly. */
+/* Springs by cotangents, masses by areas: an irregular sheet that is pulled evenly is stretched evenly,
+ * and one that is pushed evenly moves evenly. */
 #include "common/random.h"
 #include "common/vec3.h"
 #include "unit/balloon.h"
@@ -103,6 +104,61 @@ static void regular_triangles_have_the_scenes_constant(void **state)
     close_balloon(&b);
 }
 
+/* Each point off its place along the sphere, by up to a third of an edge. */
+static void shift_points(struct mesh *mesh)
+{
+    const double far = vec3_distance(mesh->position[mesh->edge[0][0]], mesh->position[mesh->edge[0][1]]) / 3;
+    uint64_t random = 29;
+    for (uint32_t p = 0; p < mesh->point_count; p++) {
+        double *x = mesh->position[p], radius = vec3_length(x);
+        for (int i = 0; i < 3; i++)
+            x[i] += far * (2 * random_unit(&random) - 1) / sqrt(3);
+        const double scale = radius / vec3_length(x);
+        for (int i = 0; i < 3; i++)
+            x[i] *= scale;
+    }
+}
+
+/* Standard deviation over mean of the speeds at which points of an irregular sphere begin to go outwards,
+ * pushed by a pressure on areas. */
+static double spread_outwards(const char *masses)
+{
+    struct balloon b;
+    struct error err = {0};
+    open_balloon(&b, 3,
+                 SETTINGS(masses, "balloons[0].pressure_on=areas", "balloons[0].pressure=0.1",
+                          "balloons[0].spring=0", "balloons[0].damping=0", "balloons[0].threshold=1e300",
+                          "time.integrator=symplectic-euler", "time.step=0.001"));
+    sim_clear(&b.sim);
+    shift_points(&b.mesh);
+    assert_ok(sim_open(&b.sim, &b.scene, &b.mesh, 1, &err), &err);
+    const uint32_t count = b.sim.point_count;
+    double mass = 0, sum = 0, squares = 0;
+    for (uint32_t p = 0; p < count; p++)
+        mass += b.sim.mass[p];
+    assert_near(mass, 0.11 * count, 1e-12 * count);
+    steps(&b, 10);
+    for (uint32_t p = 0; p < count; p++) {
+        const double *x = b.sim.position[p], speed = vec3_dot(b.sim.velocity[p], x) / vec3_length(x);
+        sum += speed;
+        squares += speed * speed;
+    }
+    const double mean = sum / count, variance = squares / count - mean * mean;
+    close_balloon(&b);
+    return sqrt(fmax(variance, 0)) / mean;
+}
+
+/* Points of one mass go as fast as the skin around them is wide. */
+static void an_even_pressure_moves_an_irregular_sphere_evenly(void **state)
+{
+    (void)state;
+    const double even = spread_outwards("balloons[0].mass_by=areas"),
+                 uneven = spread_outwards("balloons[0].mass_by=points");
+    print_message("# spread of speeds %.4f, with points of one mass %.4f\n", even, uneven);
+    assert_true(even < 0.005);
+    assert_true(uneven > 0.05);
+}
+
 /* Each edge's threshold over its own rest length: all of an evenly stretched balloon let go at
  * once, and none before. */
 static void thresholds_may_be_each_edges_own(void **state)
@@ -156,6 +212,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_even_pull_stretches_an_irregular_sheet_evenly),
         cmocka_unit_test(regular_triangles_have_the_scenes_constant),
+        cmocka_unit_test(an_even_pressure_moves_an_irregular_sphere_evenly),
         cmocka_unit_test(thresholds_may_be_each_edges_own),
         cmocka_unit_test(springs_are_as_stiff_as_their_height_says),
     };
