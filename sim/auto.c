@@ -134,7 +134,7 @@ static struct option untried(const struct sim *sim, int candidate, double parts)
 {
     const double least = least_work(sim, candidate);
     return (struct option){
-        candidate, parts, {INFINITY, parts <= GUARD_PARTS_MAX ? least * parts : INFINITY, false}};
+        candidate, parts, {INFINITY, parts <= GUARD_PARTS_MAX ? least * parts : INFINITY, false, false}};
 }
 
 /* How many of the scene's steps a trial takes: two, or one where they are split in many parts, and before the
@@ -179,35 +179,53 @@ static struct option *find_cheapest(struct option *options)
     return cheapest;
 }
 
+/* Of an option that takes its steps in parts, by itself, nobody knows how far it is off; nor is another
+ * known that would not do so, once it has been split. It is taken where no other comes near. */
+static struct option find_near(const struct option *nearest, const struct option *in_parts)
+{
+    const double near = 1e-2;
+    return nearest->result.error <= near || isinf(in_parts->result.work) ? *nearest : *in_parts;
+}
+
 /* Tries what promises to be cheapest until that keeps the tolerance; what cannot be cheaper than another that
- * does is never tried. A burst is not smooth, and no split brings it within any tolerance: where nothing does
- * in PARTS_MORE times the parts that are stable, it is what came nearest. */
+ * does is never tried, nor what takes MUCH work and twice that of one that takes its steps in parts. A burst
+ * is not smooth, and no split brings it within any tolerance: where nothing does in PARTS_MORE times the
+ * parts that are stable, it is what came nearest. */
 static struct option find_best(struct sim *sim)
 {
-    enum { TRIALS_MAX = 30, PARTS_MORE = 64 };
+    enum { TRIALS_MAX = 30, PARTS_MORE = 64, MUCH = 100000 };
     struct auto_method *m = sim->method;
     const double tolerance = sim->scene->time.tolerance;
-    struct option next[CANDIDATES], nearest = {.parts = 1, .result = {INFINITY, INFINITY, false}};
-    double most[CANDIDATES];
+    struct option next[CANDIDATES], nearest = {.parts = 1, .result = {INFINITY, INFINITY, false, false}},
+                                    in_parts = nearest;
+    double fewest[CANDIDATES], most[CANDIDATES];
     for (int i = 0; i < CANDIDATES; i++) {
         next[i] = untried(sim, i, m->is_open[i] ? fewest_parts(sim, i) : INFINITY);
-        most[i] = PARTS_MORE * next[i].parts;
+        fewest[i] = next[i].parts;
+        most[i] = PARTS_MORE * fewest[i];
         if (sim->next_change == m->memory.change)
             next[i].result.work = fmax(next[i].result.work, m->memory.spent[i] / 2);
         m->memory.spent[i] = 0;
     }
     for (int trials = 0; trials < TRIALS_MAX && sim_goes_on(sim); trials++) {
         struct option *cheapest = find_cheapest(next);
-        if (isinf(cheapest->result.work) || cheapest->result.error <= tolerance)
-            return isinf(cheapest->result.work) ? nearest : *cheapest;
+        if (isinf(cheapest->result.work) || cheapest->result.work > fmax(2 * in_parts.result.work, MUCH))
+            return find_near(&nearest, &in_parts);
+        if (cheapest->result.error <= tolerance)
+            return *cheapest;
         try_option(sim, cheapest);
         if (cheapest->result.error < nearest.result.error)
             nearest = *cheapest;
         m->memory.spent[cheapest->candidate] = cheapest->result.work;
-        if (!(cheapest->result.error <= tolerance))
+        const bool was_split = cheapest->parts > fewest[cheapest->candidate];
+        if (cheapest->result.in_parts && cheapest->result.work < in_parts.result.work)
+            in_parts = *cheapest;
+        if (cheapest->result.in_parts && was_split)
+            *cheapest = untried(sim, cheapest->candidate, INFINITY);
+        else if (!(cheapest->result.error <= tolerance))
             *cheapest = split_further(sim, cheapest, tolerance, most[cheapest->candidate]);
     }
-    return nearest;
+    return find_near(&nearest, &in_parts);
 }
 
 static bool is_due(const struct sim *sim)
@@ -298,6 +316,15 @@ bool auto_describe(const struct sim *sim, uint64_t *choices, char *text, size_t 
         return false;
     *choices = m->memory.choices;
     const double fastest = 2 / m->memory.stable, parts = m->memory.parts;
+    if (isinf(m->memory.error)) {
+        snprintf(
+            text, size,
+            "%s, %.0f substep%s: stiffness ratio %.3g, steps in parts, with an error that no trial tells, "
+            "%.3g evaluations a step",
+            candidates[m->memory.candidate]->name, parts, parts == 1 ? "" : "s",
+            fastest / sim->balloons[0].breathing_rate, m->memory.work);
+        return true;
+    }
     snprintf(text, size,
              "%s, %.0f substep%s: stiffness ratio %.3g, error %.1g radii a step%s%s, %.3g evaluations a step",
              candidates[m->memory.candidate]->name, parts, parts == 1 ? "" : "s",

@@ -310,6 +310,7 @@ static bool is_too_dear(const struct sim *sim)
 static void begin_parts(struct sim *sim)
 {
     struct implicit *m = sim->method;
+    m->in_parts++;
     vector_keep_state(sim, IMPLICIT_WHOLE_POSITION);
     if (!m->iterations_most && !m->told)
         sim_tell(sim, worst_balloon(sim), sim->acting->name,

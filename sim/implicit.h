@@ -32,6 +32,7 @@ enum {
 /* An implicit integrator's sim->method, its open and its close. Error: STATUS_NO_MEMORY. */
 struct implicit {
     struct solver solver;
+    uint64_t in_parts;        /* steps that had no solution over their whole length, so far */
     uint64_t iterations_most; /* of the solver, in all: where steps are given up as too dear; 0: nowhere */
     bool *turned;             /* [part_count] whether an edge has */
     double worst;             /* residual over mass of the point whose equation was furthest from solved, */

@@ -40,6 +40,11 @@ static uint64_t iterations_of(const struct sim *sim, const struct integrator *me
                                                : 0;
 }
 
+static uint64_t in_parts_of(const struct sim *sim, const struct integrator *method)
+{
+    return method->flags & INTEGRATOR_IMPLICIT ? ((const struct implicit *)sim->method)->in_parts : 0;
+}
+
 /* From here on an implicit method may take so many of the solver's iterations a step of the scene;
  * 0: as many as it wants. */
 static void limit(struct sim *sim, const struct integrator *method, uint64_t iterations)
@@ -75,7 +80,8 @@ struct trial_result trial_run(struct sim *sim, const struct integrator *method, 
     sim->method = own;
     vector_keep_state(sim, rows + STATE);
     sim->changed = true;
-    const uint64_t evaluations = sim->evaluations, iterations = iterations_of(sim, method);
+    const uint64_t evaluations = sim->evaluations, iterations = iterations_of(sim, method),
+                   in_parts = in_parts_of(sim, method);
     const uint64_t most = (uint64_t)(TRIAL_WORK_MAX / iteration_work) * steps;
     limit(sim, method, most);
     bool good = advance_by(sim, method, parts, steps);
@@ -84,6 +90,8 @@ struct trial_result trial_run(struct sim *sim, const struct integrator *method, 
                                        iteration_work * (double)(iterations_of(sim, method) - iterations)) /
                                           steps;
     result.too_dear = !good && result.work > TRIAL_WORK_MAX;
+    result.in_parts = in_parts_of(sim, method) > in_parts;
+    good &= !result.in_parts;
     if (good) {
         vector_copy(sim, sim->scratch[rows + COARSE], sim->position);
         put_back(sim, rows);

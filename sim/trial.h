@@ -22,6 +22,7 @@ enum { TRIAL_WORK_MAX = 1000000 };
 struct trial_result {
     double error;  /* RMS over the points, in mean radii, a step of the scene; INFINITY: it got nowhere */
     double work;   /* evaluations of the forces a step of the scene, or what takes as long */
+    bool in_parts; /* it had no solution over the steps' lengths: what two lengths differ by tells no error */
     bool too_dear; /* more than TRIAL_WORK_MAX, and given up */
 };
 

@@ -48,6 +48,25 @@ static void forty_steps_err_by_forty_tolerances_at_most(void **state)
     assert_true(work[0] < work[2]);
 }
 
+/* Both runs of a trial were cut into the same parts where a whole step has no solution, and agreed to the
+ * bit: the error was told to be 0, and so small that no other method had a chance. */
+static void what_is_taken_in_parts_tells_no_error(void **state)
+{
+    (void)state;
+    struct balloon b;
+    char text[256];
+    open_balloon(&b, 1,
+                 SETTINGS("time.integrator=auto", "time.step=0.213", "time.guard=substep",
+                          "time.tolerance=1e-6", "balloons[0].radius=10", "balloons[0].threshold=500",
+                          "balloons[0].spring=3.374e6", "balloons[0].damping=2.81",
+                          "balloons[0].point_mass=0.0556", "balloons[0].pressure=9130",
+                          "balloons[0].pressure_on=areas"));
+    steps(&b, 1);
+    assert_true(auto_describe(&b.sim, &(uint64_t){0}, text, sizeof text));
+    assert_null(strstr(text, "error 0 radii"));
+    close_balloon(&b);
+}
+
 static void it_says_what_it_has_chosen_and_why(void **state)
 {
     (void)state;
@@ -231,6 +250,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(forty_steps_err_by_forty_tolerances_at_most),
+        cmocka_unit_test(what_is_taken_in_parts_tells_no_error),
         cmocka_unit_test(it_says_what_it_has_chosen_and_why),
         cmocka_unit_test(it_chooses_again_when_the_schedule_stiffens_the_springs),
         cmocka_unit_test(the_choice_is_the_same_for_any_number_of_threads),
