@@ -44,31 +44,45 @@ static void put(struct reading *r, const char *from, const char *end)
 static enum status put_text(struct reading *r, const char *path, const struct bytes *bytes, int depth,
                             struct error *err);
 
-/* The file that is included there; its name is what stands between the quotes. */
+/* The path of the file that is included there, whose name stands between the quotes; free() it. NULL: no
+ * memory. */
+static char *path_of(const struct reading *r, const struct scene_include *include)
+{
+    const size_t folder = *include->name == '/' ? 0 : strlen(r->folder);
+    char *path = malloc(folder + (size_t)(include->name_end - include->name) + 1);
+    if (!path)
+        return NULL;
+    char *end = mempcpy(path, r->folder, folder);
+    for (const char *c = include->name; c < include->name_end; c++) {
+        c += *c == '\\'; /* the character behind it is meant */
+        *end++ = *c;
+    }
+    *end = '\0';
+    return path;
+}
+
 static enum status put_included(struct reading *r, struct scene_place place,
                                 const struct scene_include *include, int depth, struct error *err)
 {
-    char name[512], path[1024];
-    size_t length = 0;
-    for (const char *c = include->name; c < include->name_end && length < sizeof name - 1; c++) {
-        c += *c == '\\'; /* the character behind it is meant */
-        name[length++] = *c;
-    }
-    name[length] = '\0';
-    snprintf(path, sizeof path, "%s%s", *name == '/' ? "" : r->folder, name);
     if (depth == DEEPEST || r->text->files.count == MOST_FILES)
         return error_set(err, STATUS_INPUT, "%s:%u: files include one another more than %d deep, or %d times",
                          place.file, place.line, DEEPEST, MOST_FILES);
     static const char line_end[] = "\n";
+    char *path = path_of(r, include);
+    if (!path)
+        return error_no_memory(err, place.file);
     struct bytes bytes = {0};
     struct error why = {0};
     enum status status = file_read(path, &bytes, &why);
-    if (status)
-        return error_set(err, status, "%s:%u: cannot include a file: %s", place.file, place.line, why.text);
-    put(r, line_end, line_end + 1);
-    status = put_text(r, path, &bytes, depth + 1, err);
-    put(r, line_end, line_end + 1);
+    if (status) {
+        error_set(err, status, "%s:%u: cannot include a file: %s", place.file, place.line, why.text);
+    } else {
+        put(r, line_end, line_end + 1);
+        status = put_text(r, path, &bytes, depth + 1, err);
+        put(r, line_end, line_end + 1);
+    }
     bytes_clear(&bytes);
+    free(path);
     return status;
 }
 

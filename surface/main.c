@@ -91,6 +91,9 @@ static void set_sigma(struct arguments *arguments, struct argp_state *state, con
     char number[64];
     size_t length = strlen(argument);
     arguments->sigma_in_units = length && argument[length - 1] == 'u';
+    if (length >= sizeof number)
+        argp_error(state, "--sigma is of %zu characters; no number needs as many as %zu", length,
+                   sizeof number);
     snprintf(number, sizeof number, "%.*s", (int)(length - arguments->sigma_in_units), argument);
     double least = arguments->sigma_in_units ? 1e-5 : 0.01, most = arguments->sigma_in_units ? 10 : 1000;
     arguments->options.field.sigma = command_number(state, "--sigma", number, least, most);

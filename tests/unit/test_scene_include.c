@@ -103,6 +103,23 @@ static void what_cannot_be_included_is_told(void **state)
     assert_refused(load("@@", itself, &scene, &err), STATUS_INPUT, ":1: files include one another", &err);
 }
 
+static void names_may_be_long(void **state)
+{
+    (void)state;
+    enum { FOLDERS = 900 };
+    struct error err = {0};
+    struct scene scene = {0};
+    char text[2 * FOLDERS + sizeof inner + 32] = "@include \"/tmp/";
+    for (int i = 0; i < FOLDERS; i++)
+        strcat(text, "./");
+    strcat(strcat(text, strrchr(inner, '/') + 1), "\"\n");
+    write_text(inner, "time = { end = 3; };");
+    write_text(path, strcat(text, "balloons = ( { mesh = \"a.ply\"; } );"));
+    assert_ok(scene_load(path, &scene, &err), &err);
+    assert_near(scene.time.end, 3, 0);
+    scene_clear(&scene);
+}
+
 int main(void)
 {
     close(mkstemp(path));
@@ -113,6 +130,7 @@ int main(void)
         cmocka_unit_test(an_included_block_has_no_line_in_the_scene),
         cmocka_unit_test(words_in_comments_and_quotes_include_nothing),
         cmocka_unit_test(what_cannot_be_included_is_told),
+        cmocka_unit_test(names_may_be_long),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     unlink(path);
