@@ -109,7 +109,7 @@ static void names_may_be_long(void **state)
     enum { FOLDERS = 900 };
     struct error err = {0};
     struct scene scene = {0};
-    char text[2 * FOLDERS + sizeof inner + 32] = "@include \"/tmp/";
+    char text[2 * FOLDERS + sizeof inner + 128] = "@include \"/tmp/";
     for (int i = 0; i < FOLDERS; i++)
         strcat(text, "./");
     strcat(strcat(text, strrchr(inner, '/') + 1), "\"\n");
