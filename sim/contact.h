@@ -84,6 +84,7 @@ struct contact {
     struct contact_taken *taken; /* [workers] owned */
     struct contact_pair *pairs;  /* [pair_capacity + 8] owned */
     uint32_t pair_count, pair_capacity;
+    uint32_t pair_most; /* the capacity to which it grows when it must */
     /* Which pairs a point is in (contact_links.h): of the first so many by an index, of
      * those after them by chains. */
     uint32_t indexed, linked;
@@ -121,6 +122,10 @@ struct contact {
  * STATUS_RANGE when more is near than there is room for. */
 enum status contact_pairs_find(struct sim *sim, struct error *err);
 enum status contact_pairs_find_again(struct sim *sim, struct error *err);
+
+/* effect_contact.c: tables for so many pairs in place of those there are; what is in them is lost. False: not
+ * enough memory, and they stay. */
+bool contact_make_room(struct sim *sim, struct contact *c, uint32_t pairs);
 
 /* contact_list.c: makes the list anew, for this step and those that would follow on the same lines.
  * Errors: those of finding. */

@@ -148,16 +148,15 @@ enum status contact_pairs_find_again(struct sim *sim, struct error *err)
     contact_links_make(sim);
     for (uint32_t i = 0; i < c->again_count; i++)
         c->marked[c->again[i]] = 1;
-    enum status status = STATUS_OK;
     const uint32_t around = list_around(sim, c);
+    bool found = false;
     if (around != UINT32_MAX &&
         contact_tree_refit(&c->tree, sim, &ways, c->again, c->again_count, c->around, around)) {
         contact_share_out(sim->pool, c->again_count, find_vicinity, &finder);
         contact_tree_pairs_opened(&c->tree, sim, contact_take_leaves, &finder);
-        status = contact_finder_end(&finder, err);
-    } else {
-        status = contact_pairs_find(sim, err);
+        found = contact_finder_end(&finder) <= c->pair_capacity;
     }
+    const enum status status = found ? STATUS_OK : contact_pairs_find(sim, err);
     for (uint32_t i = 0; i < c->again_count; i++)
         c->marked[c->again[i]] = 0;
     return status;

@@ -22,8 +22,9 @@ const struct contact_cell *contact_finder_cell(const struct contact_finder *f, s
                                                uint32_t leaf, const struct contact_cell *used);
 /* The pairs of two leaves, for contact_tree_pairs(): of a struct contact_finder. */
 void contact_take_leaves(void *finder, unsigned worker, uint32_t a, uint32_t b);
-/* Looks at what is left. STATUS_RANGE when more is near than there is room for. */
-enum status contact_finder_end(const struct contact_finder *f, struct error *err);
+/* Looks at what is left. Returns how many pairs are near; where there is no room for all, there is none on
+ * the list. */
+uint32_t contact_finder_end(const struct contact_finder *f);
 
 /* The lines as the inner loops take them. */
 static inline struct contact_rounding contact_round_lines(const struct contact *c)

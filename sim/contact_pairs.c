@@ -196,7 +196,7 @@ struct contact_finder contact_finder_begin(struct sim *sim)
     return (struct contact_finder){sim, c, contact_list_gone_before(sim)};
 }
 
-enum status contact_finder_end(const struct contact_finder *f, struct error *err)
+uint32_t contact_finder_end(const struct contact_finder *f)
 {
     const struct sim *sim = f->sim;
     struct contact *c = f->contact;
@@ -206,18 +206,13 @@ enum status contact_finder_end(const struct contact_finder *f, struct error *err
     }
     c->listed = c->memory.found;
     const uint32_t near = c->pair_count;
-    if (near <= c->pair_capacity)
-        return STATUS_OK;
-    c->pair_count = 0; /* what is not whole is no list: nothing goes by it */
-    return error_set(
-        err, STATUS_RANGE,
-        "%s: contact at time %g: %u pairs of points, edges and triangles are near each other, and there is "
-        "room for %u; skin that is flung together is slowed by drag, more viscosity of a membrane or more "
-        "damping of springs; or contact.thickness = %g is too much for edges of this length",
-        sim->scene->path, sim->time, near, c->pair_capacity, c->thickness);
+    if (near > c->pair_capacity)
+        c->pair_count = 0; /* what is not whole is no list: nothing goes by it */
+    return near;
 }
 
-enum status contact_pairs_find(struct sim *sim, struct error *err)
+/* Returns how many are near. */
+static uint32_t find_all(struct sim *sim)
 {
     struct contact *c = sim->contact;
     const struct contact_ways ways = contact_ways_of(c);
@@ -229,5 +224,25 @@ enum status contact_pairs_find(struct sim *sim, struct error *err)
     sim_each_part(sim, begin_paths, NULL);
     contact_tree_fit(&c->tree, sim, &ways);
     contact_tree_pairs(&c->tree, sim, contact_take_leaves, &finder);
-    return contact_finder_end(&finder, err);
+    return contact_finder_end(&finder);
+}
+
+enum status contact_pairs_find(struct sim *sim, struct error *err)
+{
+    struct contact *c = sim->contact;
+    uint32_t near = find_all(sim);
+    if (near > c->pair_capacity && near <= c->pair_most) {
+        const uint32_t more = near + near / 2;
+        if (!contact_make_room(sim, c, more < c->pair_most ? more : c->pair_most))
+            return error_no_memory(err, "the pairs that are near each other");
+        near = find_all(sim);
+    }
+    if (near <= c->pair_capacity)
+        return STATUS_OK;
+    return error_set(
+        err, STATUS_RANGE,
+        "%s: contact at time %g: %u pairs of points, edges and triangles are near each other, and there is "
+        "room for %u; skin that is flung together is slowed by drag, more viscosity of a membrane or more "
+        "damping of springs; or contact.thickness = %g is too much for edges of this length",
+        sim->scene->path, sim->time, near, c->pair_most, c->thickness);
 }

@@ -36,12 +36,44 @@ static double least_edge(const struct sim *sim)
     return least;
 }
 
+bool contact_make_room(struct sim *sim, struct contact *c, uint32_t pairs)
+{
+    enum { EIGHT = 8 }; /* are looked at at a time */
+    const size_t bytes = sim->bytes, a_pair = sizeof *c->pairs + 4 * sizeof *c->link + sizeof *c->hits;
+    struct contact_pair *list = sim_table(sim, (size_t)pairs + EIGHT, sizeof *list);
+    uint32_t *link = sim_table(sim, 4 * (size_t)pairs, sizeof *link),
+             *hits = sim_table(sim, pairs, sizeof *hits);
+    if (!list || !link || !hits) {
+        free(list);
+        free(link);
+        free(hits);
+        sim->bytes = bytes;
+        return false;
+    }
+    if (c->pairs)
+        sim->bytes -= c->pair_capacity * a_pair + EIGHT * sizeof *c->pairs;
+    free(c->pairs);
+    free(c->link);
+    free(c->hits);
+    c->pairs = list;
+    c->link = link;
+    c->hits = hits;
+    c->pair_capacity = pairs;
+    return true;
+}
+
+static uint32_t at_most(size_t pairs)
+{
+    const size_t most = UINT32_MAX / 4;
+    return (uint32_t)(pairs < most ? pairs : most);
+}
+
 static bool allocate(struct sim *sim, struct contact *c)
 {
-    enum { PAIRS_A_TRIANGLE = 16 };
-    const size_t points = sim->point_count, triangles = sim->triangle_count;
-    const size_t pairs = PAIRS_A_TRIANGLE * triangles + 4096, most = UINT32_MAX / 4;
-    c->pair_capacity = pairs < most ? (uint32_t)pairs : (uint32_t)most;
+    /* shreds that are flung together have hundreds of pairs a triangle */
+    enum { PAIRS_A_TRIANGLE = 16, PAIRS_MOST = 64, MOST_OF_FEW = 1 << 22 };
+    const size_t points = sim->point_count, triangles = sim->triangle_count, most = PAIRS_MOST * triangles;
+    c->pair_most = at_most(most > MOST_OF_FEW ? most : MOST_OF_FEW);
     c->from = sim_table(sim, points, sizeof *c->from);
     c->to = sim_table(sim, points, sizeof *c->to);
     c->reach = sim_table(sim, points, sizeof *c->reach);
@@ -52,13 +84,10 @@ static bool allocate(struct sim *sim, struct contact *c)
     c->lines = sim_table(sim, points, sizeof *c->lines);
     c->ways = sim_table(sim, points, sizeof *c->ways);
     c->taken = sim_table(sim, threads_workers(sim->pool), sizeof *c->taken);
-    c->pairs = sim_table(sim, (size_t)c->pair_capacity + 8, sizeof *c->pairs); /* eight at a time */
-    c->link = sim_table(sim, 4 * (size_t)c->pair_capacity, sizeof *c->link);
     c->link_end = sim_table(sim, points, sizeof *c->link_end);
     c->chain = sim_table(sim, points, sizeof *c->chain);
     c->path = sim_table(sim, points, sizeof *c->path);
     c->seen = sim_table(sim, points, sizeof *c->seen);
-    c->hits = sim_table(sim, c->pair_capacity, sizeof *c->hits);
     c->moved = sim_table(sim, points, sizeof *c->moved);
     c->again = sim_table(sim, points, sizeof *c->again);
     c->around = sim_table(sim, triangles, sizeof *c->around);
@@ -68,10 +97,10 @@ static bool allocate(struct sim *sim, struct contact *c)
     c->zone = sim_table(sim, points, sizeof *c->zone);
     c->drift = sim_table(sim, points, sizeof *c->drift);
     c->share = sim_table(sim, sim->part_count, sizeof *c->share);
-    return c->from && c->to && c->reach && c->off && c->speed && c->star_end && c->star && c->lines &&
-           c->ways && c->taken && c->pairs && c->link && c->link_end && c->chain && c->path && c->seen &&
-           c->hits && c->moved && c->again && c->around && c->stirred && c->marked && c->held && c->zone &&
-           c->drift && c->share;
+    return contact_make_room(sim, c, at_most(PAIRS_A_TRIANGLE * triangles + 4096)) && c->from && c->to &&
+           c->reach && c->off && c->speed && c->star_end && c->star && c->lines && c->ways && c->taken &&
+           c->link_end && c->chain && c->path && c->seen && c->moved && c->again && c->around && c->stirred &&
+           c->marked && c->held && c->zone && c->drift && c->share;
 }
 
 /* Whether the edge a b passes through the triangle: its ends on two sides, and its

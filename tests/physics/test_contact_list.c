@@ -103,7 +103,7 @@ static void test_a_list_that_is_full_is_refused(void **state)
     swirl(&s.sim, 3);
     struct contact *c = s.sim.contact;
     enum status status = STATUS_OK;
-    c->pair_capacity = 200;
+    c->pair_capacity = c->pair_most = 200;
     for (int i = 0; i < 200 && !status; i++) {
         status = sim_step(&s.sim, &err);
         assert_true(c->pair_count <= 200);
@@ -111,6 +111,31 @@ static void test_a_list_that_is_full_is_refused(void **state)
     assert_int_equal(status, STATUS_RANGE);
     assert_non_null(strstr(err.text, "are near each other, and there is room for 200"));
     close_scene(&s);
+}
+
+/* As shreds that are flung together ask for. Nothing depends on when. */
+static void test_a_list_that_is_full_is_made_longer(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    uint64_t hash[2];
+    for (int small = 0; small < 2; small++) {
+        struct scene_of_two s;
+        open_scene(&s, 3, 1, FOLDING);
+        swirl(&s.sim, 3);
+        struct contact *c = s.sim.contact;
+        const uint32_t room = c->pair_capacity;
+        const size_t bytes = s.sim.bytes;
+        if (small)
+            assert_true(contact_make_room(&s.sim, c, 200));
+        for (int i = 0; i < 200; i++)
+            assert_ok(sim_step(&s.sim, &err), &err);
+        assert_true(small ? c->pair_capacity > 200 : c->pair_capacity == room);
+        assert_int_equal(s.sim.bytes, bytes + (c->pair_capacity - (size_t)room) * (sizeof *c->pairs + 20));
+        hash[small] = sim_hash(&s.sim);
+        close_scene(&s);
+    }
+    assert_int_equal(hash[0], hash[1]);
 }
 
 /* By a fine march along the way: the test of contact itself is on the safe side. */
@@ -359,6 +384,7 @@ int main(void)
         cmocka_unit_test(test_a_meeting_is_never_missed),
         cmocka_unit_test(test_the_list_has_all_that_is_near),
         cmocka_unit_test(test_a_list_that_is_full_is_refused),
+        cmocka_unit_test(test_a_list_that_is_full_is_made_longer),
         cmocka_unit_test(test_what_is_not_looked_at_does_not_touch),
         cmocka_unit_test(test_the_inner_loops_leave_nothing_out),
         cmocka_unit_test(test_a_pair_that_sleeps_wakes_when_its_points_come),
