@@ -54,8 +54,8 @@ static enum status go_to(const struct subject *s, struct course *c, double time,
     return status;
 }
 
-/* How far the scene gets in the time that a run may take, in whole stretches of whole steps;
- * and when it first breaks. */
+/* How far the scene gets in the time that a run may take, in whole stretches of whole steps; and what the
+ * whole is, should no run beside it come to an end. */
 static enum status find_span(const struct subject *s, double limit, struct effect_cost_table *table,
                              double *seconds, struct error *err)
 {
@@ -68,6 +68,12 @@ static enum status find_span(const struct subject *s, double limit, struct effec
     *seconds = now() - began;
     table->end = s->scene->time.end;
     table->span = fmin(whole.sim.time, table->end);
+    if (!status) {
+        table->steps = whole.sim.steps;
+        table->pieces = sim_measure(&whole.sim).pieces;
+        table->first_break = whole.first_break;
+        table->seconds = *seconds / fmax((double)whole.sim.steps, 1);
+    }
     sim_clear(&whole.sim);
     return status;
 }
