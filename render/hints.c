@@ -1,12 +1,11 @@
 #include "render/hints.h"
 
 #include "render/font.h"
+#include "render/overlay.h"
 #include "render/window.h"
 
 #include <stdio.h>
 #include <string.h>
-
-enum { BOX_MARGIN = 4 };
 
 void hints_say(struct hints *hints, const char *text)
 {
@@ -58,10 +57,11 @@ static char *after_lines(char *text, int count)
 
 void hints_page(struct hints *hints, const char *keys, int width, int height, char *text, size_t size)
 {
-    const int rows = (height - 2 * BOX_MARGIN - FONT_HEIGHT) / FONT_STEP + 1, each = rows > 2 ? rows - 1 : 1;
+    const int rows = (height - 2 * OVERLAY_BOX_MARGIN - FONT_HEIGHT) / FONT_STEP + 1,
+              each = rows > 2 ? rows - 1 : 1;
     int lines = 1;
     snprintf(text, size, "%s", keys);
-    hints_wrap(text, (width - 2 * BOX_MARGIN) / (FONT_WIDTH + 1));
+    hints_wrap(text, (width - 2 * OVERLAY_BOX_MARGIN) / (FONT_WIDTH + 1));
     for (const char *at = text; *at; at++)
         lines += *at == '\n';
     hints->pages = lines > rows ? (lines + each - 1) / each : 1;

@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BOX_MARGIN = 4 }; /* between a text and its box's border, in dots */
-
 static const float box_colour[4] = {0.02f, 0.02f, 0.025f, 0.82f};
 
 static void describe(const struct gl *gl, GLuint location, int size, size_t stride, size_t offset)
@@ -148,7 +146,7 @@ static void add_rectangle(struct overlay *overlay, const int box[4], uint64_t do
 
 static int margin_of(const struct render_text *text)
 {
-    return text->boxed ? BOX_MARGIN * text->scale : 0;
+    return text->boxed ? OVERLAY_BOX_MARGIN * text->scale : 0;
 }
 
 void render_text_size(const struct render_text *text, int *width, int *height)

@@ -14,6 +14,8 @@ struct render_line {
     bool on_top;     /* seen through everything; else hidden by what lies before it, or dimmed by such skin */
 };
 
+enum { OVERLAY_BOX_MARGIN = 4 }; /* between a text and its box's border, in the text's dots */
+
 /* Text in UTF-8, of the letters that font.h has; '\n' begins a new line, and what is none of them shows as a
  * box. In stereo each eye's picture carries it at the same place. */
 struct render_text {

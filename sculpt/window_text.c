@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { TEXT_SIZE = 2048, LETTER_WIDTH = 6, MARGIN = 8, BOX_MARGIN = 4, ROOM_FOR_TOOL = 100 };
+enum { TEXT_SIZE = 2048, LETTER_WIDTH = 6, MARGIN = 8, ROOM_FOR_TOOL = 100 };
 
 static const char help[] = "left       tool              middle, alt+left  turn\n"
                            "right      pan (shift+middle)       wheel      zoom\n"
@@ -97,7 +97,7 @@ static void add_text(const struct app *app, struct render_text *texts, size_t *c
     render_text_size(text, &w, &h);
     if (x + w > size[0]) {
         text->scale = 1;
-        hints_wrap(storage, (size[0] - x - MARGIN - 2 * BOX_MARGIN) / LETTER_WIDTH);
+        hints_wrap(storage, (size[0] - x - MARGIN - 2 * OVERLAY_BOX_MARGIN) / LETTER_WIDTH);
         render_text_size(text, &w, &h);
     }
     if (y < 0)

@@ -1,5 +1,6 @@
 #include "sim/springs.h"
 #include "common/vec3.h"
+#include "sim/measure.h"
 
 #include <math.h>
 
@@ -29,19 +30,11 @@ void springs_by_cotangent(struct sim *sim, const struct sim_balloon *b)
     }
 }
 
-static double area_of(const struct sim *sim, uint32_t triangle)
-{
-    const uint32_t *p = sim->triangle_point[triangle];
-    double twice[3];
-    vec3_triangle(sim->position[p[0]], sim->position[p[1]], sim->position[p[2]], twice);
-    return vec3_length(twice) / 2;
-}
-
 void springs_mass_by_area(struct sim *sim, const struct sim_balloon *b)
 {
     double skin = 0, mass = 0;
     for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++) {
-        const double area = area_of(sim, t);
+        const double area = sim_area(sim, t);
         skin += area;
         for (int k = 0; k < 3 && area > 0; k++)
             sim->mass[sim->triangle_point[t][k]] = 0;
@@ -50,5 +43,5 @@ void springs_mass_by_area(struct sim *sim, const struct sim_balloon *b)
         mass += sim->mass[p] > 0 ? 0 : b->scene->point_mass;
     for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++)
         for (int k = 0; k < 3; k++)
-            sim->mass[sim->triangle_point[t][k]] += skin > 0 ? mass * (area_of(sim, t) / skin) / 3 : 0;
+            sim->mass[sim->triangle_point[t][k]] += skin > 0 ? mass * (sim_area(sim, t) / skin) / 3 : 0;
 }
