@@ -21,7 +21,7 @@ int main(int argc, char **argv)
     if (!program)
         return 2;
     printf("400 stereo frames of 1280 x 480              wall      cpu    peak MB  frames/s\n");
-    run("simulated", (char *[]){program, "-q", argv[2], NULL});
+    run("simulated, hash", (char *[]){program, "-q", argv[2], "--hash", NULL});
     run("simulated, log", (char *[]){program, "-q", argv[2], "--log", "log.tsv", NULL});
     run("simulated, drawn, PNGs", (char *[]){program, "-q", argv[2], "--frames", "frames", NULL});
     run("simulated, drawn, PNGs, movie and sheet",
