@@ -11,8 +11,8 @@ const char shader_paper_vertex[] = "#version 330 core\n"
                                    "layout(location = 4) in vec3 colour;\n"
                                    "uniform mat4 projection;\n"
                                    "uniform vec3 eye;\n"
-                                   "out vec3 skin_normal, skin_to_eye, skin_colour;\n"
-                                   "out float skin_opacity, skin_shininess;\n"
+                                   "centroid out vec3 skin_normal, skin_to_eye, skin_colour;\n"
+                                   "centroid out float skin_opacity, skin_shininess;\n"
                                    "void main()\n"
                                    "{\n"
                                    "    skin_normal = normal;\n"
@@ -47,6 +47,9 @@ const char shader_paper_vertex[] = "#version 330 core\n"
     "    return 0.25 * part.x * part.y;\n"                                                             \
     "}\n"
 
+/* What a skin is like at a pixel is taken where it covers the pixel (centroid): beyond its ends a sliver
+ * would go on to any colour. */
+
 /* The normal n of the side that is seen, and its cosine with the line of sight; what is seen from its edge is
  * turned towards the eye a little. */
 #define FACING                                                               \
@@ -73,27 +76,28 @@ const char shader_paper_vertex[] = "#version 330 core\n"
  * function (here a cubic that has its slope at 0 and its limits). Reflection grows towards the outline by
  * Schlick's Fresnel term (1994). Bright ends are bent to 1 above a knee, as film does.
  */
-#define PAPER                                                                                               \
-    "in vec3 skin_normal, skin_to_eye, skin_colour;\n"                                                      \
-    "in float skin_opacity, skin_shininess;\n" STUDIO BOXES "void shade(out vec3 added, out vec3 passes)\n" \
-    "{\n" FACING "    float path = inversesqrt(1.0 - (1.0 - facing * facing) / 2.31);\n"                    \
-    "    vec3 hold = 1.0 + 1.4 * (dot(skin_colour, vec3(1.0 / 3.0)) - skin_colour);\n"                      \
-    "    passes = pow(vec3(max(1.0 - skin_opacity, 1e-6)), path * hold);\n"                                 \
-    "    if (skin_opacity > 0.999)\n"                                                                       \
-    "        passes = vec3(0.0);\n"                                                                         \
-    "    float body = body_light(n, 1.0 - skin_opacity);\n"                                                 \
-    "    vec3 pale = mix(skin_colour, vec3(1.0), 0.1 * (1.0 - skin_opacity));\n"                            \
-    "    float rest = 1.0 - facing;\n"                                                                      \
-    "    float fresnel = 0.043 + 0.957 * rest * rest * rest * rest * rest;\n"                               \
-    "    float gloss = skin_shininess / (skin_shininess + 12.0);\n"                                         \
-    "    float blur = 1.414 * inversesqrt(max(skin_shininess, 1.0));\n"                                     \
-    "    vec3 ray = reflect(-to_eye, n);\n"                                                                 \
-    "    float boxes = 9.0 * box(ray, key, key_across, key_along, vec2(0.36, 0.5), blur) +\n"               \
-    "                  7.0 * box(ray, strip, strip_across, strip_along, vec2(0.14, 0.8), blur);\n"          \
-    "    float around = mix(0.25, 0.75, 0.5 + 0.5 * ray.y) * smoothstep(-1.0, 0.3, ray.z);\n"               \
-    "    float mirror = gloss * min(fresnel, 0.5) * (boxes + around);\n"                                    \
-    "    vec3 seen = pale * body * (1.0 - passes) + mirror;\n"                                              \
-    "    added = on_film(seen);\n"                                                                          \
+#define PAPER                                                                                          \
+    "centroid in vec3 skin_normal, skin_to_eye, skin_colour;\n"                                        \
+    "centroid in float skin_opacity;\n"                                                                \
+    "centroid in float skin_shininess;\n" STUDIO BOXES "void shade(out vec3 added, out vec3 passes)\n" \
+    "{\n" FACING "    float path = inversesqrt(1.0 - (1.0 - facing * facing) / 2.31);\n"               \
+    "    vec3 hold = 1.0 + 1.4 * (dot(skin_colour, vec3(1.0 / 3.0)) - skin_colour);\n"                 \
+    "    passes = pow(vec3(max(1.0 - skin_opacity, 1e-6)), path * hold);\n"                            \
+    "    if (skin_opacity > 0.999)\n"                                                                  \
+    "        passes = vec3(0.0);\n"                                                                    \
+    "    float body = body_light(n, 1.0 - skin_opacity);\n"                                            \
+    "    vec3 pale = mix(skin_colour, vec3(1.0), 0.1 * (1.0 - skin_opacity));\n"                       \
+    "    float rest = 1.0 - facing;\n"                                                                 \
+    "    float fresnel = 0.043 + 0.957 * rest * rest * rest * rest * rest;\n"                          \
+    "    float gloss = skin_shininess / (skin_shininess + 12.0);\n"                                    \
+    "    float blur = 1.414 * inversesqrt(max(skin_shininess, 1.0));\n"                                \
+    "    vec3 ray = reflect(-to_eye, n);\n"                                                            \
+    "    float boxes = 9.0 * box(ray, key, key_across, key_along, vec2(0.36, 0.5), blur) +\n"          \
+    "                  7.0 * box(ray, strip, strip_across, strip_along, vec2(0.14, 0.8), blur);\n"     \
+    "    float around = mix(0.25, 0.75, 0.5 + 0.5 * ray.y) * smoothstep(-1.0, 0.3, ray.z);\n"          \
+    "    float mirror = gloss * min(fresnel, 0.5) * (boxes + around);\n"                               \
+    "    vec3 seen = pale * body * (1.0 - passes) + mirror;\n"                                         \
+    "    added = on_film(seen);\n"                                                                     \
     "}\n"
 
 /*
@@ -113,8 +117,9 @@ const char shader_latex_vertex[] =
     "layout(location = 3) in float roughness;\n"
     "layout(location = 4) in vec4 colour_closed;\n"
     "uniform mat4 projection;\n"
-    "uniform vec3 eye;\n" STUDIO "out vec3 skin_normal, skin_to_eye, skin_depth, skin_outside, skin_inside;\n"
-    "out float skin_roughness, skin_closed;\n"
+    "uniform vec3 eye;\n" STUDIO "centroid out vec3 skin_normal, skin_to_eye;\n"
+    "centroid out vec3 skin_depth, skin_outside, skin_inside;\n"
+    "centroid out float skin_roughness, skin_closed;\n"
     "const float scattering = 2.0;\n"
     "void main()\n"
     "{\n"
@@ -150,27 +155,28 @@ const char shader_latex_vertex[] =
  * dark behind the skin, or a grazing view would be as bright as glass. Inside a closed skin it sees them
  * through the other wall.
  */
-#define LATEX                                                                                              \
-    "in vec3 skin_normal, skin_to_eye, skin_depth, skin_outside, skin_inside;\n"                           \
-    "in float skin_roughness, skin_closed;\n" STUDIO BOXES "void shade(out vec3 added, out vec3 passes)\n" \
-    "{\n" FACING "    float rough = min(0.886 * skin_roughness, 1.0);\n"                                   \
-    "    float turned = sqrt(mix(facing * facing, 1.0, rough * rough));\n"                                 \
-    "    float inner = sqrt(1.0 - (1.0 - turned * turned) / 2.3104);\n"                                    \
-    "    float across = (turned - 1.52 * inner) / (turned + 1.52 * inner);\n"                              \
-    "    float along = (inner - 1.52 * turned) / (inner + 1.52 * turned);\n"                               \
-    "    float fresnel = 0.5 * (across * across + along * along);\n"                                       \
-    "    float enters = 1.0 - fresnel;\n"                                                                  \
-    "    vec3 t = exp(-skin_depth / inner);\n"                                                             \
-    "    passes = enters * enters * t / (1.0 - fresnel * fresnel * t * t);\n"                              \
-    "    vec3 mirror = fresnel * (1.0 + passes * t);\n"                                                    \
-    "    vec3 ray = reflect(-to_eye, n);\n"                                                                \
-    "    float blur = 1.2 * skin_roughness + 0.02;\n"                                                      \
-    "    float seen = 11.0 * box(ray, key, key_across, key_along, vec2(0.40, 0.58), blur) +\n"             \
-    "                 11.5 * box(ray, strip, strip_across, strip_along, vec2(0.14, 0.75), blur) +\n"       \
-    "                 mix(0.25, 0.75, 0.5 + 0.5 * ray.y) * smoothstep(-0.9, 0.4, ray.z);\n"                \
-    "    vec3 window = gl_FrontFacing ? vec3(1.0) : mix(vec3(1.0), exp(-skin_depth), skin_closed);\n"      \
-    "    vec3 body = gl_FrontFacing ? skin_outside : skin_inside;\n"                                       \
-    "    added = enters * body + mirror * window * seen;\n"                                                \
+#define LATEX                                                                                         \
+    "centroid in vec3 skin_normal, skin_to_eye, skin_depth, skin_outside, skin_inside;\n"             \
+    "centroid in float skin_roughness;\n"                                                             \
+    "centroid in float skin_closed;\n" STUDIO BOXES "void shade(out vec3 added, out vec3 passes)\n"   \
+    "{\n" FACING "    float rough = min(0.886 * skin_roughness, 1.0);\n"                              \
+    "    float turned = sqrt(mix(facing * facing, 1.0, rough * rough));\n"                            \
+    "    float inner = sqrt(1.0 - (1.0 - turned * turned) / 2.3104);\n"                               \
+    "    float across = (turned - 1.52 * inner) / (turned + 1.52 * inner);\n"                         \
+    "    float along = (inner - 1.52 * turned) / (inner + 1.52 * turned);\n"                          \
+    "    float fresnel = 0.5 * (across * across + along * along);\n"                                  \
+    "    float enters = 1.0 - fresnel;\n"                                                             \
+    "    vec3 t = exp(-skin_depth / inner);\n"                                                        \
+    "    passes = enters * enters * t / (1.0 - fresnel * fresnel * t * t);\n"                         \
+    "    vec3 mirror = fresnel * (1.0 + passes * t);\n"                                               \
+    "    vec3 ray = reflect(-to_eye, n);\n"                                                           \
+    "    float blur = 1.2 * skin_roughness + 0.02;\n"                                                 \
+    "    float seen = 11.0 * box(ray, key, key_across, key_along, vec2(0.40, 0.58), blur) +\n"        \
+    "                 11.5 * box(ray, strip, strip_across, strip_along, vec2(0.14, 0.75), blur) +\n"  \
+    "                 mix(0.25, 0.75, 0.5 + 0.5 * ray.y) * smoothstep(-0.9, 0.4, ray.z);\n"           \
+    "    vec3 window = gl_FrontFacing ? vec3(1.0) : mix(vec3(1.0), exp(-skin_depth), skin_closed);\n" \
+    "    vec3 body = gl_FrontFacing ? skin_outside : skin_inside;\n"                                  \
+    "    added = enters * body + mirror * window * seen;\n"                                           \
     "}\n"
 
 /* Light to add, and the share of what lies behind to keep. */
