@@ -26,17 +26,23 @@ struct areas_pressure {
 double areas_volume(struct sim *sim, const struct sim_balloon *balloon, const unsigned char *held,
                     const double origin[4]);
 
+/* The moment of that volume along a vector that is not 0: the integral of along . (x - origin). */
+double areas_moment(struct sim *sim, const struct sim_balloon *balloon, const unsigned char *held,
+                    const double origin[4], const double along[3]);
+
 /* Adds the pressure's forces to sim->force. */
 void areas_push(struct sim *sim, const struct sim_balloon *balloon, const unsigned char *held,
                 const struct areas_pressure *pressure);
 
 /* That volume, and by how much it changes as points move by dx, from positions alone. The change is
- * exact of a closed surface. */
+ * exact of a closed surface. And, where `along` is not NULL, its moment, and by how much that changes. */
 struct areas_change {
     double volume, change;
+    double moment, moment_change;
 };
 struct areas_change areas_change(const struct sim *sim, const struct sim_balloon *balloon,
-                                 const double origin[4], const unsigned char *held, double (*dx)[4]);
+                                 const double origin[4], const double along[3], const unsigned char *held,
+                                 double (*dx)[4]);
 
 /* df += a times the change of the forces as points move by dx and the pressure changes by
  * `change`; from positions alone. */

@@ -15,9 +15,10 @@ static bool wanted(const struct scene_balloon *balloon)
     return balloon->gas.on;
 }
 
+/* What falls with less than 1e-100 changes no bit of any pressure, and squares of it would be 0. */
 static void set_weights(struct gas *gas, const struct scene_gravity *gravity)
 {
-    if (!gravity->on || gravity->air_density == 0)
+    if (!gravity->on || gravity->air_density == 0 || vec3_length(gravity->acceleration) < 1e-100)
         return;
     memcpy(gas->down, gravity->acceleration, sizeof gas->down);
     gas->air_weight = gravity->air_density;
@@ -200,7 +201,8 @@ static void apply(struct sim *sim, struct sim_balloon *b)
     gas->volume = fmax(gas->volume, GAS_LEAST_VOLUME * gas->rest_volume); /* check() sees to what is below */
     gas->pressure = gas_pressure(gas_amount(sim, gas), gas->volume, sim->scalar[gas->scalar + GAS_ENTROPY],
                                  gas->g);
-    const struct areas_pressure pressure = gas_pressures(sim, b, gas->pressure, gas->volume);
+    const struct areas_pressure pressure = gas_pressures(sim, b, gas->pressure, gas->volume,
+                                                         gas_moment(sim, b));
     areas_push(sim, b, gas_held(gas), &pressure);
     pump_and_leak(sim, b);
     gas_let_out(sim, b);

@@ -60,9 +60,13 @@ const unsigned char *gas_held(const struct gas *gas);
 /* The volume as positions have it, whatever the last forces were; finds the holes. */
 double gas_volume(const struct sim *sim, const struct sim_balloon *balloon);
 
-/* What presses on points where the gas has this pressure and volume. */
+/* The volume's moment along gravity, seen from its origin, after part 3 of a step and with the holes that
+ * were found last; 0 where air has no weight. */
+double gas_moment(struct sim *sim, const struct sim_balloon *balloon);
+
+/* What presses on points where the gas has this pressure, volume and moment. */
 struct areas_pressure gas_pressures(const struct sim *sim, const struct sim_balloon *balloon, double pressure,
-                                    double volume);
+                                    double volume, double moment);
 
 /* The gauge pressure that the bound counts with. */
 double gas_gauge_to_bound(const struct gas *gas, double pressure);
@@ -84,7 +88,11 @@ void gas_find_holes(const struct sim *sim, const struct sim_balloon *balloon);
 /* The volume of the fans that close them, seen from `origin`. */
 double gas_fan_volume(const struct gas_holes *holes, const double origin[3]);
 
-/* The same's change as the points move by dx; exact also for what the moving rim
+/* The moment of that along `down`: the integral of down . (x - origin), as in areas.h. */
+double gas_fan_moment(const struct sim *sim, const struct sim_balloon *balloon, const double origin[3],
+                      const double down[3]);
+
+/* The volume's change as the points move by dx; exact also for what the moving rim
  * does to the skin's volume. */
 double gas_fan_change(const struct sim *sim, const struct sim_balloon *balloon, double (*dx)[4]);
 

@@ -26,21 +26,47 @@ double gas_volume(const struct sim *sim, const struct sim_balloon *b)
     double origin[4];
     gas_origin(sim, b, origin);
     gas_find_holes(sim, b);
-    return areas_change(sim, b, origin, gas_held(b->gas), sim->velocity).volume +
+    return areas_change(sim, b, origin, NULL, gas_held(b->gas), sim->velocity).volume +
            gas_fan_volume(&b->gas->holes, origin);
 }
 
+/* Volume and its moment along gravity, from positions alone, of the skin and of the holes that were found
+ * last. */
+static struct areas_change gas_change(const struct sim *sim, const struct sim_balloon *b, double (*dx)[4])
+{
+    const struct gas *gas = b->gas;
+    const double *down = gas->air_weight > 0 ? gas->down : NULL;
+    double origin[4];
+    gas_origin(sim, b, origin);
+    struct areas_change of = areas_change(sim, b, origin, down, gas_held(gas), dx);
+    of.volume += gas_fan_volume(&gas->holes, origin);
+    of.change += gas_fan_change(sim, b, dx);
+    if (down) /* how the holes' moments change is left out: Newton's method does without */
+        of.moment += gas_fan_moment(sim, b, origin, down);
+    return of;
+}
+
+double gas_moment(struct sim *sim, const struct sim_balloon *b)
+{
+    const struct gas *gas = b->gas;
+    double origin[4];
+    if (gas->air_weight == 0)
+        return 0;
+    gas_origin(sim, b, origin);
+    return areas_moment(sim, b, gas_held(gas), origin, gas->down) + gas_fan_moment(sim, b, origin, gas->down);
+}
+
 /* At the point x: p - pa + (r - ra) g . x - r g . x0 + ra g . c, with the densities r and ra of gas
- * and air, g gravity, x0 the first point, where the gas's pressure is p, and c the centre at rest,
- * where the air's is pa. */
+ * and air, g gravity, x0 the middle of the volume, where the gas's pressure is p, as its mean density is
+ * N/V, and c the centre at rest, where the air's is pa. */
 struct areas_pressure gas_pressures(const struct sim *sim, const struct sim_balloon *b, double pressure,
-                                    double volume)
+                                    double volume, double moment)
 {
     const struct gas *gas = b->gas;
     const double density = gas->gas_weight * gas_amount(sim, gas) / volume;
     struct areas_pressure q = {.constant = pressure - gas->scene->ambient};
     q.constant += gas->air_weight * vec3_dot(gas->down, b->centre) -
-                  density * vec3_dot(gas->down, sim->position[b->point_begin]);
+                  density * (vec3_dot(gas->down, sim->position[b->point_begin]) + moment / volume);
     for (int i = 0; i < 3; i++)
         q.gradient[i] = (density - gas->air_weight) * gas->down[i];
     return q;
@@ -54,22 +80,20 @@ void gas_product(struct sim *sim, struct sim_balloon *b, double a, double (*dx)[
     (void)f;
     (void)dv;
     const struct gas *gas = b->gas;
-    double origin[4];
     if (a == 0 || gas->memory.gone)
         return;
-    gas_origin(sim, b, origin);
     gas_find_holes(sim, b);
-    const struct areas_change of = areas_change(sim, b, origin, gas_held(gas), dx);
-    const double volume = of.volume + gas_fan_volume(&gas->holes, origin),
-                 change = of.change + gas_fan_change(sim, b, dx);
+    const struct areas_change of = gas_change(sim, b, dx);
+    const double volume = of.volume, change = of.change;
     const double p = gas_pressure(gas_amount(sim, gas), volume, sim->scalar[gas->scalar + GAS_ENTROPY],
                                   gas->g);
-    const struct areas_pressure pressure = gas_pressures(sim, b, p, volume);
+    const struct areas_pressure pressure = gas_pressures(sim, b, p, volume, of.moment);
     const double density = gas->gas_weight * gas_amount(sim, gas) / volume,
-                 thinner = density * change / volume;
+                 thinner = density * change / volume, middle = of.moment / volume;
     struct areas_pressure d = {.constant = -gas->g * p / volume * change +
-                                           thinner * vec3_dot(gas->down, sim->position[b->point_begin]) -
-                                           density * vec3_dot(gas->down, dx[b->point_begin])};
+                                           thinner *
+                                               (vec3_dot(gas->down, sim->position[b->point_begin]) + middle) -
+                                           density * (of.moment_change - middle * change) / volume};
     for (int i = 0; i < 3; i++)
         d.gradient[i] = -thinner * gas->down[i];
     areas_product(sim, b, &pressure, &d, gas_held(gas), a, dx, df);
@@ -102,12 +126,14 @@ void gas_bound(const struct sim *sim, const struct sim_balloon *b, const struct 
     double all = 0;
     if (memory->gone)
         return;
-    memory->bound_volume = fmax(gas_volume(sim, b), GAS_LEAST_VOLUME * gas->rest_volume);
+    gas_find_holes(sim, b);
+    const struct areas_change of = gas_change(sim, b, sim->velocity);
+    memory->bound_volume = fmax(of.volume, GAS_LEAST_VOLUME * gas->rest_volume);
     memory->bound_pressure = gas_pressure(gas_amount(sim, gas), memory->bound_volume,
                                           sim->scalar[gas->scalar + GAS_ENTROPY], gas->g);
     memory->bound_gauge = gas_gauge_to_bound(gas, memory->bound_pressure);
-    const struct areas_pressure pressure = gas_pressures(sim, b, memory->bound_pressure,
-                                                         memory->bound_volume);
+    const struct areas_pressure pressure = gas_pressures(sim, b, memory->bound_pressure, memory->bound_volume,
+                                                         of.moment);
     areas_bound(sim, b, 1.5 * fmax(memory->bound_gauge, largest_gauge(sim, b, &pressure)), rows);
     for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++)
         all += areas_size(sim, t);
@@ -180,7 +206,7 @@ void gas_power(struct sim *sim, struct sim_balloon *b, double *dissipated, doubl
     *(streams > 0 ? work : dissipated) += fabs(streams);
     *dissipated += gauge * gas_fan_change(sim, b, sim->velocity) - gas_thrust_power(sim, b);
     if (gas->air_weight > 0) {
-        const struct areas_pressure q = gas_pressures(sim, b, gas->pressure, gas->volume);
+        const struct areas_pressure q = gas_pressures(sim, b, gas->pressure, gas->volume, gas_moment(sim, b));
         struct moving m = {b, q.constant - gauge, {q.gradient[0], q.gradient[1], q.gradient[2]}};
         *work += vector_sum(sim, pushing_power, &m);
     }

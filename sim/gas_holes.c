@@ -55,6 +55,30 @@ double gas_fan_volume(const struct gas_holes *holes, const double origin[3])
     return volume;
 }
 
+static double squared_height(const double x[3], const double origin[3], const double down[3])
+{
+    double from[3];
+    vec3_sub(x, origin, from);
+    return vec3_dot(down, from) * vec3_dot(down, from);
+}
+
+double gas_fan_moment(const struct sim *sim, const struct sim_balloon *balloon, const double origin[3],
+                      const double down[3])
+{
+    const struct gas_holes *holes = &balloon->gas->holes;
+    const struct gas_rims *rims = balloon->rims;
+    double sum = 0;
+    for (uint32_t i = 0; holes->count && i < rims->side_count; i++) {
+        const double *middle = holes->middle[hole_of(rims, i)], *a = sim->position[rims->side[i][0]],
+                     *b = sim->position[rims->side[i][1]];
+        double twice[3];
+        vec3_triangle(middle, b, a, twice);
+        sum += vec3_dot(down, twice) * (squared_height(middle, origin, down) +
+                                        squared_height(a, origin, down) + squared_height(b, origin, down));
+    }
+    return sum / (12 * vec3_dot(down, down));
+}
+
 /* Of the fan's triangle (middle, b, a) as of any other of the closed surface: its twice area times the sum of
  * the ways of its corners, over 6. */
 double gas_fan_change(const struct sim *sim, const struct sim_balloon *balloon, double (*dx)[4])

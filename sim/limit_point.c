@@ -39,7 +39,7 @@ static void find_limit(const struct sim *sim, const struct sim_balloon *b, struc
 void limit_point_open(struct sim *sim, const struct sim_balloon *b, struct limit_point *limit)
 {
     *limit = (struct limit_point){
-        .rest_volume = areas_change(sim, b, sim->position[b->point_begin], NULL, sim->velocity).volume};
+        .rest_volume = areas_change(sim, b, sim->position[b->point_begin], NULL, NULL, sim->velocity).volume};
 }
 
 static void tell(struct sim *sim, const struct sim_balloon *b, struct limit_point *limit, double stretch)
