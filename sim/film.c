@@ -62,13 +62,21 @@ static enum status open_frames(struct film *film, const struct scene *scene,
     return status;
 }
 
+/* Each eye's pictures are whole ones: those of both are never put together. */
+static void look(const struct sim *sim, const double centre[3], double radius, struct render_view *view)
+{
+    skins_camera(sim, centre, radius, view);
+    if (sim->scene->view.stereo == SCENE_SEPARATE)
+        view->stereo = eyes[0].stereo;
+}
+
 enum status film_open(struct sim *sim, const double centre[3], double radius,
                       const struct frames_options *options, struct film **result, struct error *err)
 {
     struct film *film = calloc(1, sizeof *film);
     if (!film)
         return error_no_memory(err, "the film");
-    skins_camera(sim, centre, radius, &film->view);
+    look(sim, centre, radius, &film->view);
     memcpy(film->ball, centre, 3 * sizeof *centre);
     film->ball[3] = radius;
     vec3_sub(film->view.camera.eye, film->view.camera.target, film->away);

@@ -23,6 +23,8 @@ done
 refused 1 'camera' balloon-sim m.ply $short --set 'view.camera=[nan,0,1]' --frames bad
 refused 1 'view: the camera sees nothing' balloon-sim m.ply $short --set 'view.camera=[0.0,0.0,0.0]' --frames bad
 refused 1 '63 wide' balloon-sim m.ply $short --set view.size=[63,48] --frames bad
+expect 0 balloon-sim m.ply $short --set view.size=[63,48] --set view.stereo=separate --frames separate # which halves nothing
+a_file separate/frame_0001-right.png
 refused 1 'style.*latex' balloon-sim m.ply $short --set view.style=rubber --frames bad
 expect 0 balloon-sim m.ply $short --set view.size=[64,48] --set 'view.camera=[0.0,0.0,0.1]' --frames inside
 for side in above:5.0 below:-5.0; do
