@@ -151,20 +151,19 @@ static bool goes_on(const struct sim *sim)
 }
 
 /* What cannot be written is found out before the work, not after it. */
-static enum status probe(const char *path, struct error *err)
+static enum status check_files(const struct options *options, struct error *err)
 {
-    struct file_out *out = NULL;
-    enum status status = path ? file_out_open(path, &out, err) : STATUS_OK;
-    file_out_abandon(out);
+    const char *const paths[] = {options->checkpoint, options->pieces, options->mesh, options->plot};
+    enum status status = STATUS_OK;
+    for (size_t i = 0; i < sizeof paths / sizeof *paths && !status; i++)
+        status = paths[i] ? file_out_check(paths[i], err) : STATUS_OK;
     return status;
 }
 
 static enum status begin(struct run *run, struct error *err)
 {
     const struct options *options = run->options;
-    enum status status = probe(options->checkpoint, err);
-    if (!status)
-        status = probe(options->pieces, err);
+    enum status status = check_files(options, err);
     outputs_find_rest(&run->outputs, run->sim);
     if (!status && options->plot)
         status = plot_check(options->plot, err);

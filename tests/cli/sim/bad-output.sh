@@ -15,7 +15,15 @@ refused 2 '-o end.xyz: must end in .ply, .stl or .obj' balloon-sim m.ply $short 
 no_file end.xyz
 no_file log.tsv
 echo old >log.tsv
-refused 1 '' balloon-sim m.ply $short --log log.tsv -o /proc/end.ply
+refused 1 '/proc/end.ply: cannot create' balloon-sim m.ply $short --log log.tsv -o /proc/end.ply # before the run, which would take its place
+refused 1 '/proc/plot.png: cannot create' balloon-sim m.ply $short --log log.tsv --plot /proc/plot.png
+[ "$(cat log.tsv)" = old ] || fail "the log is another"
+mkfifo pipe
+cat pipe >table.tsv &
+expect 0 timeout -s KILL 20 balloon-sim m.ply $short --pieces pipe # asking beforehand whether it can be written would end what reads
+wait $!
+[ "$(wc -l <table.tsv)" = 2 ] || fail "the table of the pieces did not come through the pipe"
+rm pipe table.tsv
 refused 1 '^balloon-sim: end.ply: no skin is left to be written at 0.1 s; give an earlier time.end, or --mesh-series$' \
     balloon-sim m.ply $short -o end.ply --set balloons[0].threshold=1.001 --set balloons[0].pressure=1000
 only_files m.ply frames log.tsv
