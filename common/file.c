@@ -305,6 +305,11 @@ void file_out_abandon(struct file_out *out)
     free(out);
 }
 
+static enum status is_no_folder(const char *path, struct error *err)
+{
+    return error_set(err, STATUS_FILE, "%s: is a file; give the name of a folder", path);
+}
+
 enum status file_make_folder(const char *path, struct error *err)
 {
     struct stat info;
@@ -313,8 +318,24 @@ enum status file_make_folder(const char *path, struct error *err)
     if (errno == EEXIST && !stat(path, &info) && S_ISDIR(info.st_mode))
         return STATUS_OK;
     if (errno == EEXIST)
-        return error_set(err, STATUS_FILE, "%s: is a file; give the name of a folder", path);
+        return is_no_folder(path, err);
     return error_set_errno(err, path, "make the folder");
+}
+
+enum status file_check_folder(const char *path, struct error *err)
+{
+    struct stat info;
+    size_t length = strlen(path);
+    if (!stat(path, &info) && !S_ISDIR(info.st_mode))
+        return is_no_folder(path, err);
+    if (!stat(path, &info))
+        return access(path, W_OK) ? error_set_errno(err, path, "write into the folder") : STATUS_OK;
+    while (length > 1 && path[length - 1] == '/')
+        length--;
+    char *name = strndup(path, length);
+    enum status status = name ? file_out_check(name, err) : error_no_memory(err, path);
+    free(name);
+    return status;
 }
 
 bool file_same(const char *a, const char *b)

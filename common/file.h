@@ -62,6 +62,10 @@ void file_out_abandon(struct file_out *out);
  * there but is no folder. */
 enum status file_make_folder(const char *path, struct error *err);
 
+/* Whether files could be written into the folder, which need not be there; nothing is made. Errors: those of
+ * file_make_folder() and of file_out_open(). */
+enum status file_check_folder(const char *path, struct error *err);
+
 /* True when both names lead to the same existing file. */
 bool file_same(const char *a, const char *b);
 

@@ -11,7 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -175,11 +174,11 @@ static bool may_encode(const struct kind *kind)
 
 enum status movie_check(const char *path, struct error *err)
 {
-    struct stat info;
     if (!kind_of(path))
         return error_set(err, STATUS_USAGE, "%s: a movie's name must end in .mp4, .webm or .gif", path);
-    if (!stat(path, &info) && S_ISDIR(info.st_mode))
-        return error_set(err, STATUS_FILE, "%s: is a folder; give the name of a file in it", path);
+    const enum status status = file_out_check(path, err);
+    if (status)
+        return status;
     if (!file_program_exists("ffmpeg"))
         return error_set(err, STATUS_RESOURCE,
                          "%s: the program ffmpeg is needed for movies and is not installed; on Debian: "

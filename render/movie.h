@@ -20,7 +20,7 @@
 struct movie;
 
 /* Errors: STATUS_USAGE where the extension is not .mp4, .webm or .gif, STATUS_RESOURCE where ffmpeg is not
- * installed or lacks the encoder, STATUS_FILE where path is a folder. */
+ * installed or lacks the encoder, STATUS_FILE where path cannot be written, as in file_out_check(). */
 enum status movie_check(const char *path, struct error *err);
 
 /* Starts ffmpeg for pictures of this size, `rate` of them a second (above 0, at most 1000). Odd sizes

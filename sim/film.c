@@ -70,6 +70,19 @@ static void look(const struct sim *sim, const double centre[3], double radius, s
         view->stereo = eyes[0].stereo;
 }
 
+static enum status check_view(const struct render_view *view, struct error *err)
+{
+    enum status status = camera_check(view, err);
+    return status ? error_prefix(err, "view") : STATUS_OK;
+}
+
+enum status film_check(const struct sim *sim, const double centre[3], double radius, struct error *err)
+{
+    struct render_view view = {0};
+    look(sim, centre, radius, &view);
+    return check_view(&view, err);
+}
+
 enum status film_open(struct sim *sim, const double centre[3], double radius,
                       const struct frames_options *options, struct film **result, struct error *err)
 {
@@ -82,9 +95,7 @@ enum status film_open(struct sim *sim, const double centre[3], double radius,
     vec3_sub(film->view.camera.eye, film->view.camera.target, film->away);
     film->folder = options->folder;
     film->first = options->first;
-    enum status status = camera_check(&film->view, err);
-    if (status)
-        error_prefix(err, "view");
+    enum status status = check_view(&film->view, err);
     if (!status)
         status = skins_init(&film->skins, sim, err);
     if (!status)

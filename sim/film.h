@@ -13,6 +13,9 @@ struct film;
 enum status film_open(struct sim *sim, const double centre[3], double radius,
                       const struct frames_options *options, struct film **film, struct error *err);
 
+/* Whether the scene's pictures could be drawn; asks no renderer. Errors: STATUS_RANGE, as of film_open(). */
+enum status film_check(const struct sim *sim, const double centre[3], double radius, struct error *err);
+
 /* From now on the camera stands as many full turns round its target, about the vertical, from
  * where the scene has it. */
 void film_turn(struct film *film, double turns);

@@ -94,8 +94,11 @@ static void free_meshes(const struct scene *scene, struct mesh *meshes)
     free(meshes);
 }
 
-static void print_check(struct sim *sim)
+static enum status check(const struct options *options, struct sim *sim, struct error *err)
 {
+    enum status status = run_check(options, sim, err);
+    if (status)
+        return status;
     for (size_t i = 0; i < sim->balloon_count; i++) {
         const struct sim_balloon *b = &sim->balloons[i];
         printf("balloons[%zu]: %s: %u points, %u edges, %u triangles, mean radius %.6g, mean edge %.6g\n", i,
@@ -108,6 +111,7 @@ static void print_check(struct sim *sim)
     const struct integrator *method = sim->integrator;
     printf("%s: good: %zu bytes, %.0f steps of %s (order %d; %s)\n", sim->scene->path, sim->bytes,
            sim->scene->time.end / sim->step, method->name, method->order, method->source);
+    return STATUS_OK;
 }
 
 /* Checks or runs a scene, whose meshes are no longer needed once the sim is open, and are freed. */
@@ -126,7 +130,7 @@ static enum status simulate(const struct options *options, const struct scene *s
     if (!status && options->explain)
         explain_bursts(&sim, stdout);
     else if (!status && options->check)
-        print_check(&sim);
+        status = check(options, &sim, err);
     else if (!status && options->window)
         status = sim_window(&(struct sim_window_options){options->log, WINDOW_PAST_BYTES}, &sim, estimate,
                             err);

@@ -1,4 +1,5 @@
 #include "sim/outputs.h"
+#include "common/file.h"
 #include "sim/log_plot.h"
 #include "sim/skins.h"
 
@@ -34,6 +35,23 @@ static enum status open_meshes(struct outputs *outputs, const struct options *op
         status = mesh_series_open(sim, &series, &outputs->series, err);
     if (!status && options->cache)
         status = motion_cache_open(sim, options->cache, outputs->shown, &outputs->cache, err);
+    return status;
+}
+
+enum status outputs_check(const struct options *options, struct sim *sim, struct error *err)
+{
+    const char *const folders[] = {options->frames, options->series};
+    const struct frames_options frames = {
+        .movie = options->movie, .sheet = options->sheet, .rate = sim->scene->view.playback};
+    struct film *film = NULL;
+    double centre[3];
+    const double radius = skins_ball(sim, centre);
+    enum status status = film_check(sim, centre, radius, err);
+    for (size_t i = 0; i < sizeof folders / sizeof *folders && !status; i++)
+        status = folders[i] ? file_check_folder(folders[i], err) : STATUS_OK;
+    if (!status && (options->frames || options->movie || options->sheet))
+        status = film_open(sim, centre, radius, &frames, &film, err);
+    film_close(film, false, NULL);
     return status;
 }
 

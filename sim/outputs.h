@@ -29,6 +29,10 @@ struct outputs {
 /* Remembers where everything is at rest: before a state is loaded. */
 void outputs_find_rest(struct outputs *outputs, const struct sim *sim);
 
+/* Whether the scene could be drawn, and the film and the meshes that the options ask for be written; leaves
+ * nothing behind. Errors: those of film_open() and file_check_folder(). */
+enum status outputs_check(const struct options *options, struct sim *sim, struct error *err);
+
 /* Opens what the options ask for; *outputs has its estimate and where it rests, else it is empty. `past` is
  * the part of the run before it was resumed: frames and rows go on from there; NULL: there is none. */
 enum status outputs_open(struct outputs *outputs, const struct options *options, struct sim *sim,

@@ -153,8 +153,9 @@ static bool goes_on(const struct sim *sim)
 /* What cannot be written is found out before the work, not after it. */
 static enum status check_files(const struct options *options, struct error *err)
 {
-    const char *const paths[] = {options->checkpoint, options->pieces, options->mesh, options->plot};
-    enum status status = STATUS_OK;
+    const char *const paths[] = {options->checkpoint, options->pieces, options->mesh,
+                                 options->plot,       options->log,    options->cache};
+    enum status status = options->plot ? plot_check(options->plot, err) : STATUS_OK;
     for (size_t i = 0; i < sizeof paths / sizeof *paths && !status; i++)
         status = paths[i] ? file_out_check(paths[i], err) : STATUS_OK;
     return status;
@@ -165,8 +166,6 @@ static enum status begin(struct run *run, struct error *err)
     const struct options *options = run->options;
     enum status status = check_files(options, err);
     outputs_find_rest(&run->outputs, run->sim);
-    if (!status && options->plot)
-        status = plot_check(options->plot, err);
     if (!status && (options->log || options->plot))
         status = ledger_open(run->sim, err);
     if (!status && options->resume) {
@@ -178,6 +177,18 @@ static enum status begin(struct run *run, struct error *err)
     if (!status && options->sheet && run->sim->scene->view.stereo == SCENE_INTERLACED)
         command_note("%s: rows for either eye run together in a sheet's small pictures: it is not in stereo",
                      options->sheet);
+    return status;
+}
+
+enum status run_check(const struct options *options, struct sim *sim, struct error *err)
+{
+    struct checkpoint_run past = {0};
+    enum status status = outputs_check(options, sim, err);
+    if (!status)
+        status = check_files(options, err);
+    if (!status && options->resume)
+        status = checkpoint_load(options->resume, sim, &past, err);
+    free(past.rows);
     return status;
 }
 

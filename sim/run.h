@@ -12,4 +12,8 @@
  * STATUS_TERMINATED after a signal. */
 enum status run(const struct options *options, struct sim *sim, struct estimate *estimate, struct error *err);
 
+/* Whether a run could begin, and the scene be drawn: nothing is written, and no folder made. A checkpoint
+ * that is to be gone on with is loaded into `sim`. Errors: those of beginning. */
+enum status run_check(const struct options *options, struct sim *sim, struct error *err);
+
 #endif

@@ -30,6 +30,18 @@ only_files m.ply frames log.tsv
 expect 1 sh -c 'balloon-sim "$@" >/dev/full' sh m.ply --hash $short
 stderr_has 'cannot write the results'
 
+# --check says so too, and writes nothing.
+refused 1 'frames: is a file; give the name of a folder$' balloon-sim m.ply --check --mesh-series frames
+for output in '--frames /proc/f' '--mesh-series /proc/f/' '--movie /proc/f.mp4' '--contact-sheet /proc/f.png' '--log /proc/f' '--plot /proc/f.png' \
+    '--point-cache /proc/f.pc2' '--pieces /proc/f' '--checkpoint /proc/f' '-o /proc/f.ply'; do
+    refused 1 '^balloon-sim: /proc/f[a-z0-9.]*: cannot create: ' balloon-sim m.ply --check $output
+done
+refused 1 'm.ply: not a checkpoint' balloon-sim m.ply --check --resume m.ply
+expect 0 balloon-sim m.ply --check --frames new --mesh-series new/ --movie new.mp4 --contact-sheet new.png --log new --plot new1.png --point-cache new.pc2 \
+    --pieces new.tsv --checkpoint new.ck -o new1.ply
+[ ! -s .stderr ] || fail "something is told"
+only_files m.ply frames log.tsv
+
 # No output takes the place of what is read, or of another output.
 cp m.ply kept.ply
 echo 'balloons = ( { mesh = "m.ply"; } );' >m.cfg

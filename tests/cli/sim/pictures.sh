@@ -22,7 +22,12 @@ for size in '[0,48]' '[64,1000000]'; do
 done
 refused 1 'camera' balloon-sim m.ply $short --set 'view.camera=[nan,0,1]' --frames bad
 refused 1 'view: the camera sees nothing' balloon-sim m.ply $short --set 'view.camera=[0.0,0.0,0.0]' --frames bad
-refused 1 '63 wide' balloon-sim m.ply $short --set view.size=[63,48] --frames bad
+for output in '--frames bad' --check; do
+    refused 1 '^balloon-sim: view: a stereo picture 63 wide cannot be halved; that must be even$' balloon-sim m.ply $short --set view.size=[63,48] $output
+    refused 1 '^balloon-sim: view: the camera sees nothing' balloon-sim m.ply $short --set 'view.camera=[1e-300,0.0,0.0]' $output
+    refused 1 'osmesa' env BALLOON_CONTEXT=none balloon-sim m.ply $short --frames bad $output
+done
+expect 0 balloon-sim m.ply $short --check --set view.size=[63,48] --set view.stereo=separate
 expect 0 balloon-sim m.ply $short --set view.size=[63,48] --set view.stereo=separate --frames separate # which halves nothing
 a_file separate/frame_0001-right.png
 refused 1 'style.*latex' balloon-sim m.ply $short --set view.style=rubber --frames bad
@@ -31,5 +36,4 @@ for side in above:5.0 below:-5.0; do
     expect 0 balloon-sim m.ply $short --set view.size=[64,48] --set "view.camera=[0.0,${side#*:},0.0]" --frames "${side%:*}"
 done
 cmp -s above/frame_0001.png below/frame_0001.png && fail "it looks the same from above and from below"
-refused 1 'osmesa' env BALLOON_CONTEXT=none balloon-sim m.ply $short --frames bad
 no_file bad
