@@ -42,20 +42,28 @@ static enum status step(const struct subject *s, struct course *c, struct error 
     return status;
 }
 
-/* Steps until the time, or past it where the method can look into its steps. */
+/* Whether it is at the time, or past it where the method can look into its steps: else where one of the
+ * scene's steps ends, as the other run does, which may split them in other parts. */
+static bool is_at(const struct sim *sim, double time)
+{
+    if (sim->integrator->look)
+        return sim->time >= time;
+    return sim->steps_since % sim->substeps == 0 && sim->time > time - 1e-6 * sim->whole_step;
+}
+
 static enum status go_to(const struct subject *s, struct course *c, double time, double *seconds,
                          struct error *err)
 {
     enum status status = STATUS_OK;
     const double began = now();
-    while (!status && c->sim.time + (c->sim.integrator->look ? 0 : c->sim.step / 2) < time)
+    while (!status && !is_at(&c->sim, time))
         status = step(s, c, err);
     *seconds = now() - began;
     return status;
 }
 
-/* How far the scene gets in the time that a run may take, in whole stretches of whole steps; and what the
- * whole is, should no run beside it come to an end. */
+/* How far the scene gets in the time that a run may take; and what the whole is, should no run beside it come
+ * to an end. */
 static enum status find_span(const struct subject *s, double limit, struct effect_cost_table *table,
                              double *seconds, struct error *err)
 {

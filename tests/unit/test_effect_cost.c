@@ -38,6 +38,21 @@ static void what_gravity_does_is_found_to_the_letter(void **state)
     free(table);
 }
 
+/* Of skin in free fall, which nothing bends, bending changes nothing but in how many parts steps are split:
+ * what lay between the ends of a part and of a whole step was told to be its doing, 0.1 radii. */
+static void runs_are_compared_at_the_same_moment(void **state)
+{
+    (void)state;
+    struct effect_cost_table *table = measure(
+        SETTINGS("balloons[0].pressure=0", "balloons[0].damping=0.1", "balloons[0].bending.stiffness=3e5",
+                 "gravity.acceleration=[0,-1000,0]", "time.integrator=verlet", "time.guard=substep",
+                 "time.step=0.02", "time.end=0.86"));
+    assert_string_equal(table->rows[0].effect->name, "bending");
+    assert_true(table->steps > 2 * table->rows[0].steps);
+    assert_true(table->rows[0].position < 1e-12);
+    free(table);
+}
+
 static void what_changes_no_bit_is_not_needed(void **state)
 {
     (void)state;
@@ -97,6 +112,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_gravity_does_is_found_to_the_letter),
+        cmocka_unit_test(runs_are_compared_at_the_same_moment),
         cmocka_unit_test(what_changes_no_bit_is_not_needed),
         cmocka_unit_test(a_run_that_diverges_without_it_says_so),
         cmocka_unit_test(whoever_asks_can_end_it),
