@@ -75,6 +75,10 @@ bool file_same(const char *a, const char *b);
 enum status file_check_clash(const char *const *read, size_t read_count, const char *const *written,
                              size_t written_count, struct error *err);
 
+/* Whether the path, links followed, leads into the folder, to a name that is one of some. False also where
+ * the folder is not there. */
+bool file_lies_in(const char *path, const char *folder, bool (*is_name)(const char *name));
+
 /* True when a folder of PATH has a program of that name. */
 bool file_program_exists(const char *program);
 

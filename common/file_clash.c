@@ -2,6 +2,7 @@
 #include "common/file.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -32,6 +33,17 @@ static bool is_one_place(const char *a, const char *b)
     struct stat one, other;
     return !strcmp(last_of(a), last_of(b)) && stat(a, &one) && find_folder(a, &one) &&
            find_folder(b, &other) && one.st_dev == other.st_dev && one.st_ino == other.st_ino;
+}
+
+bool file_lies_in(const char *path, const char *folder, bool (*is_name)(const char *name))
+{
+    struct stat one, other;
+    char *resolved = realpath(path, NULL);
+    const char *whole = resolved ? resolved : path;
+    const bool lies = is_name(last_of(whole)) && find_folder(whole, &one) && !stat(folder, &other) &&
+                      one.st_dev == other.st_dev && one.st_ino == other.st_ino;
+    free(resolved);
+    return lies;
 }
 
 enum status file_check_clash(const char *const *read, size_t read_count, const char *const *written,

@@ -2,7 +2,6 @@
 
 #include <dirent.h>
 #include <fcntl.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,6 +39,11 @@ static bool is_frame(const char *name, unsigned long long *number)
         if (!strcmp(end, endings[i]))
             return true;
     return false;
+}
+
+bool frame_file_is_name(const char *name)
+{
+    return is_frame(name, &(unsigned long long){0});
 }
 
 static enum status remove_from(DIR *open, const char *folder, size_t first, size_t *removed,

@@ -4,6 +4,7 @@
 
 #include "common/status.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* FOLDER/frame_0007.png; with an eye ("left" or "right", else NULL) FOLDER/frame_0007-left.png.
@@ -12,6 +13,9 @@ char *frame_file(const char *folder, size_t number, const char *eye);
 
 /* NAME.mp4, with an eye NAME-left.mp4. Free it; NULL: no memory. */
 char *frame_eye_file(const char *path, const char *eye);
+
+/* Whether frame_file() gives such names. */
+bool frame_file_is_name(const char *name);
 
 /* Removes the folder's frames, of either eye or of no one, from number `first` on; *removed of them. What is
  * no regular file stays, and a folder that is not there holds none. Errors: STATUS_FILE naming the frame that

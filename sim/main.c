@@ -1,11 +1,8 @@
 /* balloon-sim: inflates the balloons of a scene until they burst. */
-#include "common/array.h"
 #include "common/command.h"
-#include "common/file.h"
-#include "common/plot.h"
+#include "sim/clash.h"
 #include "sim/explain.h"
 #include "sim/guard.h"
-#include "sim/motion_cache.h"
 #include "sim/price.h"
 #include "sim/price_effects.h"
 #include "sim/run.h"
@@ -141,52 +138,13 @@ static enum status simulate(const struct options *options, const struct scene *s
     return status;
 }
 
-/* No output takes the place of what is read, or of another; but a checkpoint may be the one that is gone on
- * with. `derived`: the name that goes with another output's, or NULL. */
-static enum status check_names(const struct options *options, const struct scene *scene, const char *price,
-                               const char *derived, struct error *err)
-{
-    static const struct options no_run = {0};
-    const struct options *run = price ? &no_run : options;
-    const bool goes_on = run->resume && run->checkpoint && file_same(run->resume, run->checkpoint);
-    const char *written[] = {run->movie, run->sheet,
-                             run->log,   run->plot,
-                             run->mesh,  run->pieces,
-                             run->cache, run->checkpoint,
-                             derived,    price && plot_is_file_name(price) ? price : NULL};
-    const char **read = array_new(scene->balloon_count + 2, sizeof *read);
-    if (!read)
-        return error_no_memory(err, "the names of files");
-    for (size_t i = 0; i < scene->balloon_count; i++)
-        read[i] = scene->balloons[i].mesh;
-    read[scene->balloon_count] = options->scene;
-    read[scene->balloon_count + 1] = goes_on ? NULL : run->resume;
-    enum status status = file_check_clash(read, scene->balloon_count + 2, written,
-                                          sizeof written / sizeof *written, err);
-    free(read);
-    return status;
-}
-
-static enum status check_files(const struct options *options, const struct scene *scene, struct error *err)
-{
-    const char *price = options->accuracy_cost ? options->accuracy_cost : options->effect_cost;
-    char *derived = price            ? plot_table_name(price)
-                    : options->cache ? motion_cache_mesh_name(options->cache)
-                                     : NULL;
-    if ((price || options->cache) && !derived)
-        return error_no_memory(err, "the names of files");
-    enum status status = check_names(options, scene, price, derived, err);
-    free(derived);
-    return status;
-}
-
 static enum status perform(const struct options *options, struct error *err)
 {
     struct scene scene = {0};
     struct mesh *meshes = NULL;
     enum status status = load_scene(options, &scene, err);
     if (!status)
-        status = check_files(options, &scene, err);
+        status = clash_check(options, &scene, err);
     if (!status && options->explain)
         explain_effects(&scene, stdout);
     if (!status)

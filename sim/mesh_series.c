@@ -90,15 +90,32 @@ enum status mesh_series_open(struct sim *sim, const struct mesh_series_options *
     return status;
 }
 
-/* Whether a name is that of a mesh from the series' next number on, exactly as it would be written here. */
-static bool is_ours(const struct mesh_series *series, const char *name)
+/* Whether a name is that of a mesh, exactly as it would be written here; its number. */
+static bool is_mesh(const char *name, const char *extension, uint64_t *number)
 {
     char again[64], *end;
     if (strncmp(name, "mesh_", 5) != 0 || name[5] < '0' || name[5] > '9')
         return false;
-    const uint64_t number = strtoull(name + 5, &end, 10);
-    snprintf(again, sizeof again, "mesh_%04" PRIu64 ".%s", number, series->extension);
-    return number >= series->next && !strcmp(name, again);
+    *number = strtoull(name + 5, &end, 10);
+    snprintf(again, sizeof again, "mesh_%04" PRIu64 ".%s", *number, extension);
+    return !strcmp(name, again);
+}
+
+bool mesh_series_is_ply_name(const char *name)
+{
+    return is_mesh(name, "ply", &(uint64_t){0}) || !strcmp(name, "mesh.ply.series");
+}
+
+bool mesh_series_is_vtp_name(const char *name)
+{
+    return is_mesh(name, "vtp", &(uint64_t){0}) || !strcmp(name, "mesh.vtp.series");
+}
+
+/* Whether a mesh of that name is one of the series' from its next number on. */
+static bool is_ours(const struct mesh_series *series, const char *name)
+{
+    uint64_t number;
+    return is_mesh(name, series->extension, &number) && number >= series->next;
 }
 
 static enum status remove_earlier(struct mesh_series *series, struct error *err)

@@ -24,6 +24,10 @@ struct mesh_series_options {
     uint64_t first; /* number of the first mesh: those before it are of the same run, and stay in the list */
 };
 
+/* Whether a file of the folder that is called so may be of a series, and go with the next one. */
+bool mesh_series_is_ply_name(const char *name);
+bool mesh_series_is_vtp_name(const char *name);
+
 /* `sim` is borrowed. Errors: STATUS_FILE, STATUS_NO_MEMORY, STATUS_RANGE. */
 enum status mesh_series_open(struct sim *sim, const struct mesh_series_options *options,
                              struct mesh_series **series, struct error *err);

@@ -304,8 +304,10 @@ enum status run(const struct options *options, struct sim *sim, struct estimate 
         status = outputs_finish(&run.outputs, err);
     note_removed(&run);
     status = outputs_close(&run.outputs, status, err);
-    if (run.outputs.removed)
-        command_note("%s: %zu meshes of an earlier run were removed", options->series, run.outputs.removed);
+    const size_t removed = run.outputs.removed;
+    if (removed)
+        command_note("%s: %zu mesh%s of an earlier run %s removed", options->series, removed,
+                     removed == 1 ? "" : "es", removed == 1 ? "was" : "were");
     if (!status && options->mesh)
         status = save_skin(sim, options->mesh, err);
     if (!status && options->pieces)

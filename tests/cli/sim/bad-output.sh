@@ -54,6 +54,23 @@ refused 2 'a\.png: two outputs would go there' balloon-sim m.cfg $short --plot a
 refused 2 'a\.ply: two outputs would go there' balloon-sim m.cfg $short --point-cache a.pc2 -o a.ply
 mv m.cfg m.tsv
 refused 1 'm\.tsv: is read here' balloon-sim m.tsv $short --accuracy-cost m.png # and m.tsv beside it
+
+# Nor do those in folders, whose names are not given.
+mkdir series
+cp m.ply series/mesh_0003.ply # which a shorter series would remove
+ln -s series/mesh_0003.ply link.ply
+for mesh in series/mesh_0003.ply link.ply; do
+    refused 1 "^balloon-sim: $mesh: is read here, and would be replaced or removed by what goes into ./series/; give another folder$" \
+        balloon-sim $mesh $short --mesh-series ./series/
+done
+refused 2 '^balloon-sim: series/mesh_0001.ply: two outputs would go there' balloon-sim m.ply $short --mesh-series series -o series/mesh_0001.ply
+refused 2 'series/mesh.ply.series: two outputs would go there' balloon-sim m.ply $short --mesh-series series --log series/mesh.ply.series
+refused 2 'series/frame_0000.png: two outputs would go there' balloon-sim m.ply $short --frames series --plot series/frame_0000.png
+refused 2 'a-left.png: two outputs would go there' balloon-sim m.ply $short --set view.stereo=separate --contact-sheet a.png --plot a-left.png
+[ "$(echo series/*)" = series/mesh_0003.ply ] || fail "there is $(echo series/*)"
+expect 0 balloon-sim series/mesh_0003.ply $short --mesh-series series --mesh-series-format vtp -o series/mesh_3.ply
+same_file m.ply series/mesh_0003.ply
+rm -r series link.ply
 same_file m.ply kept.ply
 same_file m.tsv kept.cfg
 only_files m.ply frames log.tsv kept.ply kept.cfg m.tsv
