@@ -34,6 +34,7 @@ static void fill(struct sim *sim, struct sim_balloon *b)
     scalar[GAS_AMOUNT] = gas->scene->fill * gas->filling;
     scalar[GAS_ENTROPY] = gas->g == 1 ? 1 : pow(gas->scene->fill * gas->scene->ambient, 1 - gas->g);
     gas->pressure = gas->scene->fill * gas->scene->ambient;
+    gas->outside = gas->scene->ambient;
     gas->memory.neck_open = gas->scene->neck > 0 && gas->scene->neck_at <= 0;
 }
 
@@ -92,8 +93,9 @@ static size_t left(struct sim *sim, struct sim_balloon *b, struct sim_block *lis
     list[0] = (struct sim_block){"holes", &gas->holes, sizeof gas->holes};
     list[1] = (struct sim_block){"volume", &gas->volume, sizeof gas->volume};
     list[2] = (struct sim_block){"pressure", &gas->pressure, sizeof gas->pressure};
-    list[3] = (struct sim_block){"tube held", &gas->tube_held, sizeof gas->tube_held};
-    return 4;
+    list[3] = (struct sim_block){"outside", &gas->outside, sizeof gas->outside};
+    list[4] = (struct sim_block){"tube held", &gas->tube_held, sizeof gas->tube_held};
+    return 5;
 }
 
 static void reorder(struct sim *sim, struct sim_balloon *b, const struct reorder *how)
@@ -168,7 +170,7 @@ static double pumped(const struct sim *sim, const struct sim_balloon *b, const s
 {
     const struct gas *gas = b->gas;
     const double rate = b->now->pump * gas->filling, goal = b->now->pump_until * gas->filling,
-                 missing = goal - gas_amount(sim, gas), gauge = fmax(in->pressure - gas->scene->ambient, 0);
+                 missing = goal - gas_amount(sim, gas), gauge = fmax(in->pressure - gas->outside, 0);
     if (gas->memory.neck_open || rate == 0)
         return 0;
     if (rate < 0)
@@ -181,7 +183,7 @@ static void pump_and_leak(struct sim *sim, const struct sim_balloon *b)
 {
     const struct gas *gas = b->gas;
     const struct gas_drive in = gas_drive(sim, b);
-    const double gauge = in.pressure - gas->scene->ambient, brought = pumped(sim, b, &in);
+    const double gauge = in.pressure - gas->outside, brought = pumped(sim, b, &in);
     const double leaked = fmin(gas->scene->leak * gas->scene->ambient, in.to_even) * gauge;
     gas_stream(sim, b, brought, 1);
     gas_stream(sim, b, -leaked, 1);
@@ -201,8 +203,9 @@ static void apply(struct sim *sim, struct sim_balloon *b)
     gas->volume = fmax(gas->volume, GAS_LEAST_VOLUME * gas->rest_volume); /* check() sees to what is below */
     gas->pressure = gas_pressure(gas_amount(sim, gas), gas->volume, sim->scalar[gas->scalar + GAS_ENTROPY],
                                  gas->g);
-    const struct areas_pressure pressure = gas_pressures(sim, b, gas->pressure, gas->volume,
-                                                         gas_moment(sim, b));
+    const double moment = gas_moment(sim, b);
+    const struct areas_pressure pressure = gas_pressures(sim, b, gas->pressure, gas->volume, moment);
+    gas->outside = gas_outside(sim, b, gas->volume, moment);
     areas_push(sim, b, gas_held(gas), &pressure);
     pump_and_leak(sim, b);
     gas_let_out(sim, b);
@@ -228,7 +231,7 @@ static void let_all_go(struct sim *sim, struct sim_balloon *b)
     scalar[GAS_BROUGHT] -= scalar[GAS_AMOUNT];
     scalar[GAS_AMOUNT] = 0;
     b->gas->memory.gone = 1;
-    b->gas->pressure = b->gas->scene->ambient;
+    b->gas->pressure = b->gas->outside;
     sim->changed = true;
     guard_bound_outdated(sim);
     sim_tell(sim, b, "gas", "has left through the holes, and sleeps");
@@ -267,7 +270,7 @@ static bool is_bound_outdated(const struct gas *gas)
     const struct gas_memory *memory = &gas->memory;
     const double volume = gas->volume / memory->bound_volume,
                  pressure = gas->pressure / memory->bound_pressure,
-                 gauge = gas_gauge_to_bound(gas, gas->pressure) / memory->bound_gauge;
+                 gauge = gas_gauge_to_bound(gas->pressure, gas->outside) / memory->bound_gauge;
     return !(volume > 0.8 && volume < 1.25 && pressure > 0.8 && pressure < 1.25 && gauge < 1.5 &&
              gauge > 0.5);
 }

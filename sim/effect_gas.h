@@ -46,8 +46,9 @@ void gas_hold_copy(struct sim_balloon *balloon, uint32_t point, uint32_t copy);
 
 /* What is in a balloon now. */
 struct gas_look {
-    double volume, gauge_pressure;
-    double amount; /* N */
+    double volume;
+    double gauge_pressure; /* in its middle, over the air's beside it */
+    double amount;         /* N */
     /* Of N, from outside, in all: what was pumped in less what got out by leak, neck and holes. */
     double brought;
     double hole_area; /* of tears and of an open neck */

@@ -56,7 +56,7 @@ static void apply(struct sim *sim, struct sim_balloon *b)
     struct sim_balloon *to = &sim->balloons[b->scene->tube.to];
     const struct gas_drive here = gas_drive(sim, b), there = gas_drive(sim, to);
     const bool out = here.pressure > there.pressure;
-    const struct pair pair = {b->scene, out ? &here : &there, out ? &there : &here, b->scene->gas.ambient};
+    const struct pair pair = {b->scene, out ? &here : &there, out ? &there : &here, b->gas->outside};
     const double difference = pair.from->pressure - pair.into->pressure;
     b->gas->tube_held = false;
     if (!(difference > 0) || !(pair.from->density > 0))
@@ -86,7 +86,7 @@ static double follow(const struct sim *sim, const struct sim_balloon *b)
     const struct gas_drive drive[2] = {gas_drive_in_bound(sim, b), gas_drive_in_bound(sim, to)};
     double longest = INFINITY;
     for (int i = 0; i < 2; i++) {
-        const struct pair pair = {b->scene, &drive[i], &drive[1 - i], b->scene->gas.ambient};
+        const struct pair pair = {b->scene, &drive[i], &drive[1 - i], b->gas->outside};
         const double difference = laminar(&pair);
         if (drive[i].density > 0)
             longest = fmin(longest, fmin(drive[0].capacity, drive[1].capacity) / 8 * difference /

@@ -32,6 +32,7 @@ struct gas {
     /* By the last sim_forces(); the thrust beyond the missing pressure on a unit of a hole's
      * area, and that of the neck. */
     double volume, pressure, rim_thrust, neck_thrust;
+    double outside; /* of the air beside the middle of the volume */
 
     bool tube_held,
         tube_told; /* what flows in its tube was held back by them (effect_tube.c); and that was told */
@@ -64,12 +65,15 @@ double gas_volume(const struct sim *sim, const struct sim_balloon *balloon);
  * were found last; 0 where air has no weight. */
 double gas_moment(struct sim *sim, const struct sim_balloon *balloon);
 
+/* The pressure of the air beside the middle of this volume. */
+double gas_outside(const struct sim *sim, const struct sim_balloon *balloon, double volume, double moment);
+
 /* What presses on points where the gas has this pressure, volume and moment. */
 struct areas_pressure gas_pressures(const struct sim *sim, const struct sim_balloon *balloon, double pressure,
                                     double volume, double moment);
 
 /* The gauge pressure that the bound counts with. */
-double gas_gauge_to_bound(const struct gas *gas, double pressure);
+double gas_gauge_to_bound(double pressure, double outside);
 
 /* The hooks of struct effect of these names; power by the last sim_forces(). */
 void gas_product(struct sim *sim, struct sim_balloon *balloon, double a, double (*dx)[4], double b,

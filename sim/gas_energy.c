@@ -56,19 +56,35 @@ double gas_moment(struct sim *sim, const struct sim_balloon *b)
     return areas_moment(sim, b, gas_held(gas), origin, gas->down) + gas_fan_moment(sim, b, origin, gas->down);
 }
 
-/* At the point x: p - pa + (r - ra) g . x - r g . x0 + ra g . c, with the densities r and ra of gas
- * and air, g gravity, x0 the middle of the volume, where the gas's pressure is p, as its mean density is
- * N/V, and c the centre at rest, where the air's is pa. */
+/* How far down the middle of the volume is, times gravity. */
+static double depth(const struct sim *sim, const struct sim_balloon *b, double volume, double moment)
+{
+    return vec3_dot(b->gas->down, sim->position[b->point_begin]) + moment / volume;
+}
+
+/* At rest the air has pa in the balloon's centre. */
+double gas_outside(const struct sim *sim, const struct sim_balloon *b, double volume, double moment)
+{
+    const struct gas *gas = b->gas;
+    if (gas->air_weight == 0)
+        return gas->scene->ambient;
+    return gas->scene->ambient +
+           gas->air_weight * (depth(sim, b, volume, moment) - vec3_dot(gas->down, b->centre));
+}
+
+/* At the point x: p - pm + (r - ra) g . (x - m), with the densities r and ra of gas and air, g gravity, and m
+ * the middle of the volume, where the gas's pressure is p, as its mean density is N/V, and the air's pm. */
 struct areas_pressure gas_pressures(const struct sim *sim, const struct sim_balloon *b, double pressure,
                                     double volume, double moment)
 {
     const struct gas *gas = b->gas;
-    const double density = gas->gas_weight * gas_amount(sim, gas) / volume;
-    struct areas_pressure q = {.constant = pressure - gas->scene->ambient};
-    q.constant += gas->air_weight * vec3_dot(gas->down, b->centre) -
-                  density * (vec3_dot(gas->down, sim->position[b->point_begin]) + moment / volume);
+    const double heavier = gas->gas_weight * gas_amount(sim, gas) / volume - gas->air_weight;
+    struct areas_pressure q = {.constant = pressure - gas_outside(sim, b, volume, moment)};
+    if (gas->air_weight == 0)
+        return q;
+    q.constant -= heavier * depth(sim, b, volume, moment);
     for (int i = 0; i < 3; i++)
-        q.gradient[i] = (density - gas->air_weight) * gas->down[i];
+        q.gradient[i] = heavier * gas->down[i];
     return q;
 }
 
@@ -101,9 +117,9 @@ void gas_product(struct sim *sim, struct sim_balloon *b, double a, double (*dx)[
 
 /* The gauge pressure that the bound counts with: a thousandth of the pressure at the least, so that a balloon
  * that is filled from nothing does not ask for a new one at every step. */
-double gas_gauge_to_bound(const struct gas *gas, double pressure)
+double gas_gauge_to_bound(double pressure, double outside)
 {
-    return fmax(fabs(pressure - gas->scene->ambient), 1e-3 * pressure);
+    return fmax(fabs(pressure - outside), 1e-3 * pressure);
 }
 
 /* The largest pressure on any point, less the air's: where gas or air have weight it
@@ -131,7 +147,8 @@ void gas_bound(const struct sim *sim, const struct sim_balloon *b, const struct 
     memory->bound_volume = fmax(of.volume, GAS_LEAST_VOLUME * gas->rest_volume);
     memory->bound_pressure = gas_pressure(gas_amount(sim, gas), memory->bound_volume,
                                           sim->scalar[gas->scalar + GAS_ENTROPY], gas->g);
-    memory->bound_gauge = gas_gauge_to_bound(gas, memory->bound_pressure);
+    memory->bound_gauge = gas_gauge_to_bound(memory->bound_pressure,
+                                             gas_outside(sim, b, memory->bound_volume, of.moment));
     const struct areas_pressure pressure = gas_pressures(sim, b, memory->bound_pressure, memory->bound_volume,
                                                          of.moment);
     areas_bound(sim, b, 1.5 * fmax(memory->bound_gauge, largest_gauge(sim, b, &pressure)), rows);
@@ -218,11 +235,13 @@ struct gas_look gas_look(struct sim *sim, const struct sim_balloon *balloon)
     if (!gas)
         return (struct gas_look){0};
     const double *scalar = &sim->scalar[gas->scalar];
+    gas_find_holes(sim, balloon);
+    const struct areas_change of = gas_change(sim, balloon, sim->velocity);
     struct gas_look look = {
-        .volume = gas_volume(sim, balloon), .amount = scalar[GAS_AMOUNT], .brought = scalar[GAS_BROUGHT]};
+        .volume = of.volume, .amount = scalar[GAS_AMOUNT], .brought = scalar[GAS_BROUGHT]};
     look.hole_area = gas_openings(gas);
     if (!gas->memory.gone)
         look.gauge_pressure = gas_pressure(scalar[GAS_AMOUNT], look.volume, scalar[GAS_ENTROPY], gas->g) -
-                              gas->scene->ambient;
+                              gas_outside(sim, balloon, look.volume, of.moment);
     return look;
 }

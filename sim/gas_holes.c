@@ -177,7 +177,7 @@ void gas_let_out(struct sim *sim, struct sim_balloon *balloon)
     if (area == 0)
         return;
     const struct gas_drive in = gas_drive(sim, balloon);
-    const double gauge = in.pressure - scene->ambient, most = in.to_even * fabs(gauge);
+    const double gauge = in.pressure - gas->outside, most = in.to_even * fabs(gauge);
     if (gauge > 0) {
         const double turbulent = fmax(gauge, laminar * in.pressure);
         const struct gas_jet jet = gas_jet(in.pressure, in.density, in.pressure - turbulent, scene->gamma,
@@ -190,9 +190,9 @@ void gas_let_out(struct sim *sim, struct sim_balloon *balloon)
         gas->neck_thrust = share * jet.thrust * neck_area(gas);
         add_thrust(sim, balloon, sim->force, add_force);
     } else if (gauge < 0) {
-        const double turbulent = fmax(-gauge, laminar * scene->ambient);
-        const struct gas_jet jet = gas_jet(scene->ambient, scene->density, scene->ambient - turbulent,
-                                           scene->gamma, scene->discharge);
+        const double turbulent = fmax(-gauge, laminar * gas->outside);
+        const struct gas_jet jet = gas_jet(gas->outside, scene->density * (gas->outside / scene->ambient),
+                                           gas->outside - turbulent, scene->gamma, scene->discharge);
         const double rate = fmin(jet.flux * area * in.amount_of_mass * (-gauge / turbulent), most);
         gas_stream(sim, balloon, rate, 1);
         sim->scalar_rate[gas->scalar + GAS_BROUGHT] += rate;
