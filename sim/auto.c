@@ -8,12 +8,13 @@
  * times as many edges have let go.
  */
 #include "sim/auto.h"
-#include "sim/guard.h"
+#include "sim/guard_bound.h"
 #include "sim/methods.h"
 #include "sim/rkn4.h"
 #include "sim/trial.h"
 #include "sim/weights.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,7 +24,10 @@
 static const struct integrator *const candidates[] = {
     &integrator_symplectic_euler, &integrator_verlet, &integrator_rk4, &integrator_rkn4,
     &integrator_backward_euler,   &integrator_bdf2};
-enum { CANDIDATES = sizeof candidates / sizeof candidates[0], TRIAL_ROWS = 12, STIFF = 6 };
+enum { CANDIDATES = sizeof candidates / sizeof candidates[0], STIFF = 6 };
+
+/* In sim->scratch: what no candidate uses. */
+enum { GUARD_ROW = 10, TRIAL_ROWS };
 
 struct auto_method {
     void *own[CANDIDATES];
@@ -49,6 +53,7 @@ static enum status open_candidate(struct sim *sim, int i, struct error *err)
 {
     struct auto_method *m = sim->method;
     enum status status = STATUS_OK;
+    assert(candidates[i]->vectors <= GUARD_ROW);
     m->is_open[i] = true;
     if (i > 0 && candidates[i]->open && candidates[i]->open == candidates[i - 1]->open) {
         m->own[i] = m->own[i - 1];
@@ -252,17 +257,40 @@ static void take(struct sim *sim, const struct option *option)
         m->memory.next = m->memory.next ? 8 * m->memory.next : 32;
 }
 
+/* What the future depends on and a choice changes before it is made. */
+struct kept {
+    double spent[CANDIDATES];
+    struct guard_memory guard; /* with its x in the row GUARD_ROW */
+};
+
+static void keep(const struct sim *sim, struct kept *kept)
+{
+    const struct auto_method *m = sim->method;
+    memcpy(kept->spent, m->memory.spent, sizeof kept->spent);
+    memcpy(sim->scratch[GUARD_ROW], sim->guard->x, sim->point_count * sizeof *sim->guard->x);
+    kept->guard = sim->guard->memory;
+}
+
+static void put_back(struct sim *sim, const struct kept *kept)
+{
+    struct auto_method *m = sim->method;
+    memcpy(m->memory.spent, kept->spent, sizeof kept->spent);
+    memcpy(sim->guard->x, sim->scratch[GUARD_ROW], sim->point_count * sizeof *sim->guard->x);
+    sim->guard->memory = kept->guard;
+    sim->acting = candidates[m->memory.candidate];
+}
+
 /* sim->acting and wanted_substeps follow from what is remembered: also where that comes out of a file. */
 static bool choose(struct sim *sim, bool first)
 {
     struct auto_method *m = sim->method;
     sim->acting = candidates[m->memory.candidate];
     if (first && is_due(sim)) {
-        double spent[CANDIDATES];
-        memcpy(spent, m->memory.spent, sizeof spent);
+        struct kept kept;
+        keep(sim, &kept);
         const struct option best = find_best(sim);
         if (!sim_goes_on(sim)) { /* as if it had never begun: whoever resumes the run chooses anew */
-            memcpy(m->memory.spent, spent, sizeof spent);
+            put_back(sim, &kept);
             return false;
         }
         take(sim, &best);

@@ -144,6 +144,41 @@ static void who_is_asked_in_a_trial_is_told_so(void **state)
     close_balloon(&b);
 }
 
+static int answers; /* yes, before the first no */
+
+static bool goes_on_for_a_while(const struct sim *sim)
+{
+    (void)sim;
+    return answers-- > 0;
+}
+
+/* Whoever ends one and goes on later comes to the same bits: where an implicit method acted, the guard's
+ * bound for the others had been made sharper once more. */
+static void a_choice_that_is_ended_half_way_has_not_begun(void **state)
+{
+    (void)state;
+    const char *const *changes = SETTINGS("time.guard=substep", "time.integrator=auto", "time.step=0.05",
+                                          "balloons[0].pressure=0", "balloons[0].membrane.thickness=0.5",
+                                          "balloons[0].membrane.viscosity=1e5", "balloons[0].gas.ambient=6",
+                                          "balloons[0].gas.fill=1.5", "schedule[0].at=0.1",
+                                          "schedule[0].pump=0.1");
+    struct error err = {0};
+    struct balloon b, whole;
+    open_balloon(&b, 1, changes);
+    open_balloon(&whole, 1, changes);
+    steps(&b, 2);
+    steps(&whole, 3);
+    assert_true(b.sim.acting->flags & INTEGRATOR_IMPLICIT);
+    answers = 2;
+    b.sim.goes_on = goes_on_for_a_while;
+    assert_refused(sim_step(&b.sim, &err), STATUS_INTERRUPTED, "interrupted", &err);
+    b.sim.goes_on = NULL;
+    steps(&b, 1);
+    assert_true(sim_hash(&b.sim) == sim_hash(&whole.sim));
+    close_balloon(&b);
+    close_balloon(&whole);
+}
+
 /* With damping a step of rkn4 takes 28 forces: that it is no candidate is known without a trial, which would
  * take 84 at the least, as much as those of all others. */
 static void a_choice_takes_no_more_than_a_few_steps(void **state)
@@ -195,8 +230,6 @@ static void a_trial_ends_where_the_guard_would(void **state)
     close_balloon(&b);
 }
 
-/* What the guard splits any step for is part of every method's price: one that is stable at any step took the
- * whole of it in its trial, and a hundred times its work in each of the parts. */
 /* At a step thousands of times as long as an explicit method may take. */
 static void stiff_skin_that_tears_is_given_to_an_implicit_method(void **state)
 {
@@ -218,6 +251,8 @@ static void stiff_skin_that_tears_is_given_to_an_implicit_method(void **state)
     close_balloon(&b);
 }
 
+/* What the guard splits any step for is part of every method's price: one that is stable at any step took the
+ * whole of it in its trial, and a hundred times its work in each of the parts. */
 static void a_wide_tube_splits_steps_of_every_method(void **state)
 {
     (void)state;
@@ -255,6 +290,7 @@ int main(void)
         cmocka_unit_test(it_chooses_again_when_the_schedule_stiffens_the_springs),
         cmocka_unit_test(the_choice_is_the_same_for_any_number_of_threads),
         cmocka_unit_test(who_is_asked_in_a_trial_is_told_so),
+        cmocka_unit_test(a_choice_that_is_ended_half_way_has_not_begun),
         cmocka_unit_test(a_choice_takes_no_more_than_a_few_steps),
         cmocka_unit_test(trials_leave_no_trace),
         cmocka_unit_test(a_trial_ends_where_the_guard_would),
