@@ -145,8 +145,7 @@ static double growth(double error, double last_error)
 /* The state stays as it was before the step. */
 static enum status refuse(struct sim *sim, double dt, struct error *err)
 {
-    vector_copy(sim, sim->position, sim->scratch[2 * STAGES]);
-    vector_copy(sim, sim->velocity, sim->scratch[2 * STAGES + 1]);
+    vector_return_to(sim, 2 * STAGES);
     return error_set(
         err, STATUS_DIVERGED,
         "%s: diverged at time %g (step %llu): no step down to %.2g s keeps time.tolerance = %g; the forces "

@@ -19,11 +19,7 @@ const struct runge_kutta runge_kutta_dormand_prince = {
 
 void runge_kutta_begin(struct sim *sim, const struct runge_kutta *method)
 {
-    const int start = 2 * method->stages;
-    vector_copy(sim, sim->scratch[start], sim->position);
-    vector_copy(sim, sim->scratch[start + 1], sim->velocity);
-    for (uint32_t i = 0; i < sim->scalar_count; i++)
-        sim->scalar_scratch[start][i] = sim->scalar[i];
+    vector_keep_state(sim, 2 * method->stages);
 }
 
 void runge_kutta_state(struct sim *sim, const struct runge_kutta *method, const double *weights, double dt)
@@ -37,7 +33,7 @@ void runge_kutta_state(struct sim *sim, const struct runge_kutta *method, const 
         terms[i].rows = sim->scratch[stages + i];
     vector_combine(sim, sim->velocity, sim->scratch[2 * stages + 1], terms, (size_t)stages);
     for (uint32_t s = 0; s < sim->scalar_count; s++) {
-        sim->scalar[s] = sim->scalar_scratch[2 * stages][s];
+        sim->scalar[s] = sim->scalar_scratch[2 * stages + 1][s];
         for (int i = 0; i < stages; i++)
             if (weights[i] != 0)
                 sim->scalar[s] += dt * weights[i] * sim->scalar_scratch[i][s];

@@ -114,6 +114,29 @@ static void a_limp_balloon_asks_for_no_short_steps(void **state)
     }
 }
 
+/* Gas and all: what had leaked in the last try was no number. */
+static void what_no_step_can_follow_is_left_as_it_was(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        struct balloon b;
+        struct error err = {0};
+        char integrator[64];
+        snprintf(integrator, sizeof integrator, "time.integrator=%s", methods[i]);
+        open_balloon(&b, 1,
+                     SETTINGS(integrator, "balloons[0].gas.ambient=15", "balloons[0].gas.fill=1.5",
+                              "balloons[0].gas.leak=1"));
+        steps(&b, 1);
+        b.sim.position[0][0] = NAN;
+        double scalar[8];
+        assert_true(b.sim.scalar_count > 0 && b.sim.scalar_count <= 8);
+        memcpy(scalar, b.sim.scalar, b.sim.scalar_count * sizeof *scalar);
+        assert_refused(sim_step(&b.sim, &err), STATUS_DIVERGED, "diverged at time", &err);
+        assert_memory_equal(b.sim.scalar, scalar, b.sim.scalar_count * sizeof *scalar);
+        close_balloon(&b);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -122,6 +145,7 @@ int main(void)
         cmocka_unit_test(steps_end_where_something_lets_go_or_opens),
         cmocka_unit_test(a_limp_balloon_asks_for_no_short_steps),
         cmocka_unit_test(units_ask_for_no_other_steps),
+        cmocka_unit_test(what_no_step_can_follow_is_left_as_it_was),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
