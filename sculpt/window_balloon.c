@@ -1,10 +1,7 @@
 #include "sculpt/window_balloon.h"
 
-#include "common/array.h"
 #include "common/vec3.h"
 #include "surface/surface.h"
-
-#include <stdlib.h>
 
 enum { BALLOON_TRIANGLES = 4000 };
 
@@ -14,23 +11,22 @@ static double sigma_for(unsigned depth)
     return depth <= 5 ? 0.7 : depth == 6 ? 1 : depth == 7 ? 1.5 : 2;
 }
 
-/* Thick and glossy: light shows through a little where the film is seen straight on. */
-static enum status make_film(struct balloon *balloon, struct error *err)
+/* Rubber that is pumped up to three times its volume and stays so: the paper's springs would go to shreds,
+ * and leave an empty picture. It is so viscous that it hardly swings. */
+static enum status make_scene(struct scene *scene, struct error *err)
 {
-    const uint32_t count = balloon->mesh.triangle_count;
-    balloon->opacity = array_new(count, sizeof *balloon->opacity);
-    balloon->shininess = array_new(count, sizeof *balloon->shininess);
-    if (!balloon->opacity || !balloon->shininess)
-        return error_no_memory(err, "the balloon");
-    for (uint32_t i = 0; i < count; i++) {
-        balloon->opacity[i] = 0.94f;
-        balloon->shininess[i] = 60;
-    }
-    balloon->skin = (struct render_skin){.mesh = &balloon->mesh,
-                                         .opacity = balloon->opacity,
-                                         .shininess = balloon->shininess,
-                                         .colour = {0.69f, 0.008f, 0.013f}};
-    return STATUS_OK;
+    static const char *const settings[] = {
+        "time.integrator=symplectic-euler", "time.guard=substep",
+        "balloons[0].pressure=0",           "balloons[0].threshold=1e300",
+        "balloons[0].membrane.law=gent",    "balloons[0].membrane.thickness=0.45",
+        "balloons[0].membrane.viscosity=8", "balloons[0].gas.ambient=6",
+        "balloons[0].gas.density=2.2e-5",   "balloons[0].gas.pump=1",
+        "balloons[0].gas.pump_until=3",
+    };
+    enum status status = scene_from_mesh("the balloon", scene, err);
+    for (size_t i = 0; i < sizeof settings / sizeof *settings && !status; i++)
+        status = scene_set(scene, settings[i], err);
+    return status ? status : scene_check(scene, err);
 }
 
 enum status balloon_mesh(struct balloon *balloon, const struct octree *tree, struct error *err)
@@ -41,10 +37,13 @@ enum status balloon_mesh(struct balloon *balloon, const struct octree *tree, str
     options.field.sigma = sigma_for(tree->depth);
     options.triangles = BALLOON_TRIANGLES;
     enum status status = surface_make(tree, &options, &balloon->mesh, &stats, err);
-    if (!status)
-        status = make_film(balloon, err);
     if (status)
         balloon_clear(balloon);
+    else /* as the simulator's skin at rest */
+        balloon->skin = (struct render_skin){.mesh = &balloon->mesh,
+                                             .rest_opacity = 0.97f,
+                                             .rest_shininess = 12,
+                                             .colour = {0.69f, 0.008f, 0.013f}};
     return status;
 }
 
@@ -67,9 +66,7 @@ enum status balloon_inflate(struct balloon *balloon, struct error *err)
 {
     enum status status = mesh_connect(&balloon->mesh, err);
     if (!status)
-        status = scene_from_mesh("the balloon", &balloon->scene, err);
-    if (!status)
-        status = scene_check(&balloon->scene, err);
+        status = make_scene(&balloon->scene, err);
     if (!status) {
         find_place(balloon);
         status = sim_open(&balloon->sim, &balloon->scene, &balloon->mesh, 0, err);
@@ -93,8 +90,6 @@ void balloon_clear(struct balloon *balloon)
     sim_clear(&balloon->sim);
     scene_clear(&balloon->scene);
     mesh_clear(&balloon->mesh);
-    free(balloon->opacity);
-    free(balloon->shininess);
     *balloon = (struct balloon){0};
 }
 

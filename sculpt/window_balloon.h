@@ -3,7 +3,7 @@
  *
  *     struct balloon balloon = {0};
  *     if (balloon_mesh(&balloon, &tree, err)) ...      the smooth surface
- *     if (balloon_inflate(&balloon, err)) ...          hands it to the simulator's defaults
+ *     if (balloon_inflate(&balloon, err)) ...          hands it to the simulator, as rubber
  *     if (balloon_step(&balloon, err)) ...
  *     balloon_clear(&balloon);
  */
@@ -16,9 +16,8 @@
 
 struct balloon {
     struct mesh mesh;        /* in the cube's units */
-    struct render_skin skin; /* of that mesh, as taut as the simulator's at rest: */
-    float *opacity, *shininess;
-    bool inflated; /* from here on it is the sim's: */
+    struct render_skin skin; /* of that mesh, at rest */
+    bool inflated;           /* from here on it is the sim's: */
     struct scene scene;
     struct sim sim;
     struct skins skins;

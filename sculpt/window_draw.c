@@ -96,6 +96,7 @@ void app_draw(struct app *app)
         scene.line_count = make_lines(app, lines);
         status = draw_sculpture(app, &view, &scene, &err);
     } else {
+        view.style = RENDER_LATEX;
         view.order = RENDER_SORT;
         view.outlines = RENDER_SAMPLED;
         if (app->open)
