@@ -18,7 +18,7 @@ struct reorder;
 
 /* When an effect's hook runs. */
 enum effect_phase {
-    EFFECT_OPEN,       /* once, when the tables are complete */
+    EFFECT_OPEN,       /* nothing but `open`, ahead of all others, which go by what it makes of the tables */
     EFFECT_FORCES,     /* adds to sim->force and sim->scalar_rate at the current state */
     EFFECT_MOVED,      /* once the points have moved, before anything breaks: corrects how they did */
     EFFECT_AFTER_STEP, /* at the end of each accepted step */

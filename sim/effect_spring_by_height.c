@@ -11,8 +11,9 @@ static bool wanted(const struct scene_balloon *balloon)
 
 /* The factor at the height of each edge's middle: 0 for the lowest point of the balloon at
  * rest, 1 for the highest. */
-static void apply(struct sim *sim, struct sim_balloon *balloon)
+static enum status open(struct sim *sim, struct sim_balloon *balloon, struct error *err)
 {
+    (void)err;
     double low = INFINITY, high = -INFINITY;
     for (uint32_t p = balloon->point_begin; p < balloon->point_end; p++) {
         low = fmin(low, sim->position[p][1]);
@@ -26,10 +27,8 @@ static void apply(struct sim *sim, struct sim_balloon *balloon)
         sim->init_spring_const[e] *= factor;
         sim->current_spring_const[e] = sim->init_spring_const[e] * balloon->now->spring_factor;
     }
+    return STATUS_OK;
 }
 
-const struct effect effect_spring_by_height = {.name = "spring_by_height",
-                                               .phase = EFFECT_OPEN,
-                                               .wanted = wanted,
-                                               .apply = apply,
-                                               .source = "paper 3.1"};
+const struct effect effect_spring_by_height = {
+    .name = "spring_by_height", .phase = EFFECT_OPEN, .wanted = wanted, .open = open, .source = "paper 3.1"};

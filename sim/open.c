@@ -297,8 +297,6 @@ static enum status build(struct sim *sim, const struct mesh *meshes, unsigned wo
     if (!status)
         status = look_open(sim, err);
     if (!status)
-        effects_run(sim, EFFECT_OPEN);
-    if (!status)
         status = guard_open(sim, err);
     if (!status && sim->integrator->open)
         status = sim->integrator->open(sim, err);
