@@ -164,7 +164,7 @@ static void advance(struct sim *sim, struct sim_balloon *b, struct crack_tip *ti
         return;
     const int spoke = best_spoke(sim, b, tip, &ring);
     if (spoke < 0) { /* blunted: another time, perhaps */
-        tip->ready = sim->time + 0.05 * f->radius / f->wave_speed;
+        tip->ready = sim->time + 0.05 * f->radius / fracture_wave_speed(b);
         return;
     }
     tip->alive = 0;

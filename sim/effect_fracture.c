@@ -114,7 +114,7 @@ static double wave_speed(const struct sim *sim, const struct sim_balloon *b)
     if (b->membrane)
         return sqrt(b->membrane->modulus / b->scene->membrane.density);
     for (uint32_t e = b->edge_begin; e < b->edge_end; e++)
-        stiffness += sim->current_spring_const[e] / (b->edge_end - b->edge_begin);
+        stiffness += sim->init_spring_const[e] / (b->edge_end - b->edge_begin);
     for (uint32_t p = b->point_begin; p < b->point_end; p++)
         mass += sim->mass[p] / (b->point_end - b->point_begin);
     return b->mean_rest_length * sqrt(3 * stiffness / (8 * mass));
@@ -159,7 +159,6 @@ static enum status open(struct sim *sim, struct sim_balloon *b, struct error *er
     make_patches(b, f->list);
     f->radius = b->radius;
     f->wave_speed = wave_speed(sim, b);
-    f->look_interval = 0.02 * f->radius / f->wave_speed;
     f->whole_energy = fracture_equal_energy(scene->strength);
     f->branch_energy = fracture_equal_energy(scene->branching);
     b->rims = &f->rims;

@@ -241,6 +241,11 @@ void fracture_rip(struct sim *sim, struct sim_balloon *b)
     fracture_tell_gas(sim, b);
 }
 
+double fracture_wave_speed(const struct sim_balloon *b)
+{
+    return b->membrane ? b->fracture->wave_speed : b->fracture->wave_speed * sqrt(b->now->spring_factor);
+}
+
 bool fracture_is_sound(const struct sim *sim, const struct sim_balloon *b)
 {
     const struct fracture *f = b->fracture;
@@ -297,7 +302,7 @@ static bool is_near_cut(const struct sim *sim, const struct sim_balloon *b, cons
     const struct fracture *f = b->fracture;
     const double reach = 0.15 * f->radius;
     for (uint32_t i = 0; i < f->now.tips; i++)
-        if (sim->time < f->tips[i].since + reach / f->wave_speed &&
+        if (sim->time < f->tips[i].since + reach / fracture_wave_speed(b) &&
             vec3_distance(crack_rest(b, f->tips[i].point), place) < reach)
             return true;
     return false;
@@ -328,9 +333,12 @@ void fracture_step(struct sim *sim, struct sim_balloon *b)
 {
     struct fracture *f = b->fracture;
     const uint32_t cuts = b->topology->now.edges;
+    const double speed = fracture_wave_speed(b);
     f->stamps++;
+    if (speed == 0)
+        return;
     if (sim->time >= f->now.next_look) {
-        f->now.next_look = sim->time + f->look_interval;
+        f->now.next_look = sim->time + 0.02 * f->radius / speed;
         find_energies(sim, b);
         births(sim, b);
         snap_strands(sim, b);

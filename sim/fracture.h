@@ -51,7 +51,8 @@ struct fracture {
     unsigned char *seen; /* [triangles] */
     uint32_t *stamp;     /* [points] when the point's triangles last changed: within a step only */
     uint32_t stamps;
-    double radius, wave_speed, look_interval;
+    double radius;
+    double wave_speed;                  /* c of a membrane, or of the springs where spring_factor is 1 */
     double whole_energy, branch_energy; /* W of strength and branching */
     struct gas_rims rims;               /* what the gas is told */
     uint32_t *hole_of;                  /* [sides of triangles] scratch for them */
@@ -89,6 +90,9 @@ void fracture_rip(struct sim *sim, struct sim_balloon *balloon);
 /* Whether what came from a file can be cracks; what follows from them, once blocks were put back. */
 bool fracture_is_sound(const struct sim *sim, const struct sim_balloon *balloon);
 void fracture_restored(struct sim *sim, struct sim_balloon *balloon);
+
+/* c, as springs are now; 0: they hold nothing that could tear. */
+double fracture_wave_speed(const struct sim_balloon *balloon);
 
 /* The rule, after each step. */
 void fracture_step(struct sim *sim, struct sim_balloon *balloon);

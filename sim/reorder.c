@@ -10,7 +10,7 @@ enum { PRICE = 3 };
 /* A shear wave at rest has gone a radius without a cut. */
 static bool has_rested(const struct sim *sim, const struct sim_balloon *b)
 {
-    return sim->time >= b->topology->now.last_cut + b->fracture->radius / b->fracture->wave_speed;
+    return sim->time >= b->topology->now.last_cut + b->fracture->radius / fracture_wave_speed(b);
 }
 
 static uint32_t room_of(const struct sim_balloon *b)

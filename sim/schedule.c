@@ -1,5 +1,6 @@
 /* "The user can change the time interval or the internal air pressure between any time steps" (paper 3.5). */
 #include "common/scene_fields.h"
+#include "sim/fracture.h"
 #include "sim/guard.h"
 #include "sim/ledger.h"
 
@@ -12,6 +13,8 @@ static void change_springs(struct sim *sim, struct sim_balloon *balloon, double 
     const uint32_t begin = balloon->edge_begin, end = balloon->edge_end;
     const double before = sim->ledger.on ? ledger_elastic(sim, begin, end) : 0;
     balloon->now->spring_factor = factor;
+    if (balloon->fracture)
+        balloon->fracture->now.next_look = sim->time; /* its intervals go by how stiff they were */
     for (uint32_t e = begin; e < end; e++)
         sim->current_spring_const[e] = sim->init_spring_const[e] * factor;
     if (sim->ledger.on)

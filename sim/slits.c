@@ -153,7 +153,8 @@ static void add_tip(struct sim *sim, struct sim_balloon *b, const struct crack_t
     struct crack_tip tip = {.point = point, .alive = 1, .since = sim->time};
     const double length = crack_rest_direction(b, start, point, tip.heading);
     const double began = from ? fmax(from->ready, sim->time - sim->step) : sim->time;
-    tip.ready = began + length / (b->scene->fracture.tip_speed * f->wave_speed);
+    const double speed = b->scene->fracture.tip_speed * fracture_wave_speed(b);
+    tip.ready = began + (speed > 0 ? length / speed : 0); /* what has no speed waits until it has one */
     tip.run = length + (from ? from->run : 0);
     uint32_t i = 0;
     while (i < f->now.tips && f->tips[i].alive)
