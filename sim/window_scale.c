@@ -26,7 +26,8 @@ double app_stretch_most(const struct app *app)
     const struct sim *sim = app->live.sim;
     const struct sim_balloon *first = sim->balloons;
     const double last = first->fracture ? first->scene->fracture.strength
-                                        : first->now->threshold_length / first->mean_rest_length;
+                                        : first->now->threshold_length /
+                                              (first->own_thresholds ? 1 : first->mean_rest_length);
     return fmin(fmax(last, 1.01), longest_scale);
 }
 

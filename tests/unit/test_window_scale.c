@@ -40,11 +40,26 @@ static void are_greys_that_rise_behind_red_and_cyan_glasses(void **state)
     }
 }
 
+/* Where an edge lets go the scale ends, whichever rest length that is over. */
+static void ends_where_edges_let_go(void **state)
+{
+    (void)state;
+    static const char *const keys[] = {"balloons[0].threshold_of=mean", "balloons[0].threshold_of=edge"};
+    for (int i = 0; i < 2; i++) {
+        struct balloon b;
+        open_balloon(&b, 2, SETTINGS(keys[i], "balloons[0].threshold=2.5"));
+        const struct app app = {.live = {.sim = &b.sim}};
+        assert_near(app_stretch_most(&app), 2.5, 1e-12);
+        close_balloon(&b);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(are_hues_where_each_eye_sees_all),
         cmocka_unit_test(are_greys_that_rise_behind_red_and_cyan_glasses),
+        cmocka_unit_test(ends_where_edges_let_go),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
