@@ -3,7 +3,8 @@
 
 #include <math.h>
 
-/* A key turns a dial by this part of its slider. Time is not turned finely, but to a tenth and back. */
+/* A key turns a dial by this part of its slider, down to where that begins. Time is not turned finely, but to
+ * a tenth and back. */
 static const double key_part[LIVE_DIALS] = {
     [LIVE_PRESSURE] = 0.02, [LIVE_STEP] = 0.02, [LIVE_SPRINGS] = 0.02, [LIVE_PACE] = 0.1};
 
@@ -26,8 +27,9 @@ static bool dial_key(struct app *app, int key)
     };
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
         if (keys[i].key == key) {
-            const double part = app_dial_part(app, keys[i].dial) + keys[i].sign * key_part[keys[i].dial];
-            app_turn(app, keys[i].dial, app_dial_value(app, keys[i].dial, fmax(part, 0)));
+            const double before = app_dial_part(app, keys[i].dial),
+                         part = before + keys[i].sign * key_part[keys[i].dial];
+            app_turn(app, keys[i].dial, app_dial_value(app, keys[i].dial, fmax(part, fmin(before, 0))));
             return true;
         }
     return false;

@@ -29,9 +29,9 @@ enum {
     BOXES_MAX = 8192,
 };
 
-/* A slider of pressure ends at this many times the scene's, and where that is 0 at the other;
- * that of a pump has 0, and gas that is let out, in its middle and before. The others go from a
- * tenth to ten times theirs. */
+/* A slider of pressure ends at this many times the scene's, and where that is 0 at the other; that of a
+ * pump, or of a pressure from outside, has 0 in its middle, and before it gas that is let out, or that
+ * pressure. The others go from a tenth to ten times theirs. */
 static const double pressure_most = 2.5, other_pressure_most = 25, other_pump_most = 1;
 
 const double app_no_pressure = 2e-9;
@@ -136,7 +136,7 @@ static void pressure_range(const struct app *app, double range[2])
     const bool pumps = live_pumps(&app->live);
     const double most = pressure_most * fabs(app->live.standard[LIVE_PRESSURE]);
     range[1] = most > 0 ? most : pumps ? other_pump_most : other_pressure_most;
-    range[0] = pumps ? -range[1] : 0;
+    range[0] = pumps || app->live.standard[LIVE_PRESSURE] < 0 ? -range[1] : 0;
 }
 
 static double standard_of(const struct app *app, enum live_dial dial)

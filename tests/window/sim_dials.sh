@@ -31,6 +31,20 @@ quit
 log_has "pressure by slider" 'near(at(-1, "gauge_pressure"), 7.5)'
 log_has "step by slider" 'near(at(-1, "step"), 0.0025)'
 
+# A pressure from outside: 0 in the middle of its slider.
+open_live --set balloons[0].pressure=-3
+pause
+press Down period
+quit
+log_has "less pressure by key" 'near(at(-1, "gauge_pressure"), -3.3)'
+
+# What the schedule has made of a step is less than its slider has: no key turns it the other way.
+open_live --set schedule[0].at=0 --set schedule[0].step=0.001
+pause
+press period bracketleft period
+quit
+log_has "a shorter step by key" 'at(-1, "step") <= 0.001'
+
 # In a window of twice 600 x 450 all that lies over the picture is twice as large.
 open_live --set view.size=[1200,900]
 pause
