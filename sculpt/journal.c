@@ -62,6 +62,21 @@ static bool is_idle(const struct bytes *journal, const struct journal_text *text
     return same;
 }
 
+/* Whether all work in a journal is in the sculpture: it was saved, and nothing came of what was done since.
+ * Without a mark none was. */
+static bool is_saved(const struct bytes *journal, const struct journal_text *text, const char *path)
+{
+    static const char mark[] = "\n" JOURNAL_MARK " #";
+    struct octree tree = {0};
+    struct journal_report report;
+    struct error ignored;
+    if (journal->size != text->end || !memmem(journal->data, text->end, mark, sizeof mark - 1))
+        return false;
+    const bool saved = !journal_recover(path, &tree, NULL, &report, &ignored) && !report.unsaved;
+    octree_clear(&tree);
+    return saved;
+}
+
 enum status journal_is_left(const char *path, bool *left, struct error *err)
 {
     struct bytes file = {0};
@@ -73,7 +88,7 @@ enum status journal_is_left(const char *path, bool *left, struct error *err)
     char *name = journal_path(path, JOURNAL_SUFFIX);
     status = name ? file_read(name, &file, err) : error_no_memory(err, "a journal");
     if (!status && !journal_text_read(&file, &text, &ignored))
-        *left = !is_idle(&file, &text, path);
+        *left = !is_idle(&file, &text, path) && !is_saved(&file, &text, path);
     bytes_clear(&file);
     free(name);
     return status;

@@ -27,7 +27,8 @@
 struct journal;
 
 /* Sets *left when the sculpture has a journal with work in it that nobody is writing: its program was killed.
- * One that has none in it, and whose sculpture is what it began from, is as good as none. Errors:
+ * One whose work is all in the sculpture, or that has none and whose sculpture is what it began from, is as
+ * good as none. Errors:
  * STATUS_RESOURCE when another program has it open, STATUS_FILE, STATUS_NO_MEMORY. */
 enum status journal_is_left(const char *path, bool *left, struct error *err);
 

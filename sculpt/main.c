@@ -305,7 +305,7 @@ static enum status save(const struct options *options, struct work *work, struct
     if (picture_preview(&work->tree, &work->chunks, &reason)) /* a sculpture without one is as good */
         command_note("the sculpture is saved without a preview: %s", reason.text);
     status = octree_save_with(&work->tree, &work->chunks, options->output, err);
-    if (!status && left && recovered)
+    if (!status && (recovered || !left))
         status = journal_remove(options->output, err);
     return status;
 }

@@ -92,3 +92,22 @@ rm slow.oct
 mv got.oct slow.oct
 balloon-sculpt -q --recover slow.oct -o recovered.oct
 same_cells recovered.oct want.oct
+
+# killed after it was saved: nothing is lost, so that nothing is asked, and carving goes on
+journal=want.oct.journal
+open_sculptor want.oct
+press 1 g
+click 480 360
+until_true "nothing was carved" journal_counts step 1
+press ctrl+s
+wait_title 'want.oct'
+kill -9 "$program"
+wait "$program" 2>/dev/null || true
+open_sculptor want.oct
+press 1 g
+click 350 500
+until_true "there is a question about what was saved" journal_counts chip 2
+press ctrl+q
+press d
+ends 0
+[ ! -e "$journal" ] || fail "the journal stays"

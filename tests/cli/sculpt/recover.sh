@@ -45,6 +45,24 @@ same_file new.oct before.oct
 expect 0 balloon-sculpt new.oct --info
 stderr_has 'new\.oct\.journal holds work that was not saved: --recover begins with it'
 
+# What had been saved is no work that is lost, also where a look followed; what came after is. In place of such a sculpture comes another.
+expect 0 balloon-sculpt --script wanted.chips -o saved.oct
+journal saved.oct.journal "$cube" 'chip sphere 0.5 0.5 0.5 0.3' 'step' '# save'
+expect 0 balloon-sculpt saved.oct --info
+[ ! -s .stderr ] || fail "what was saved is told to be lost"
+journal saved.oct.journal "$cube" 'chip sphere 0.5 0.5 0.5 0.3' 'step' '# save' 'step' 'material 1' 'mirror none'
+expect 0 balloon-sculpt saved.oct --info
+[ ! -s .stderr ] || fail "what was saved is told to be lost"
+journal saved.oct.journal "$cube" 'chip sphere 0.5 0.5 0.5 0.3' 'step' '# save' 'chip box 0 0 0 1 1 0.5' 'step'
+expect 0 balloon-sculpt saved.oct --info
+stderr_has 'saved\.oct\.journal holds work that was not saved'
+journal saved.oct.journal "$cube" 'chip sphere 0.5 0.5 0.5 0.3' 'step' '# save'
+echo 'chip box 0 0 0 1 1 0.5' >half.chips
+expect 0 balloon-sculpt --script half.chips -o saved.oct
+no_file saved.oct.journal
+expect 0 balloon-sculpt saved.oct --info
+[ ! -s .stderr ] || fail "the journal of what was replaced is told of"
+
 # What is no journal, or one whose beginning is lost.
 echo 'chip sphere 0 0 0 1' >foreign.oct.journal
 refused 1 'foreign\.oct\.journal: not a journal' balloon-sculpt --recover foreign.oct -o out.oct
