@@ -17,6 +17,7 @@ struct journal {
     int file;
     off_t size;
     uint32_t sum; /* of the last line */
+    bool torn;    /* behind `size` lies a part of a line, which could not be taken back yet */
     char *path, *base;
 };
 
@@ -116,16 +117,20 @@ static enum status open_locked(struct journal *journal, const char *path, struct
     }
 }
 
-/* What was written in part is taken back, so that the next line begins where it must. */
+/* What was written in part is taken back, so that the next line begins where it must: now, or before that
+ * line, since nothing that follows such a part is read. */
 static enum status write_once(struct journal *journal, const char *text, size_t size, struct error *err)
 {
+    if (journal->torn && ftruncate(journal->file, journal->size))
+        return error_set_errno(err, journal->path, "write");
     ssize_t written = write(journal->file, text, size);
+    journal->torn = false;
     if (written == (ssize_t)size) {
         journal->size += written;
         return STATUS_OK;
     }
     int reason = written < 0 ? errno : ENOSPC;
-    ftruncate(journal->file, journal->size);
+    journal->torn = ftruncate(journal->file, journal->size) != 0;
     errno = reason;
     return error_set_errno(err, journal->path, "write");
 }
