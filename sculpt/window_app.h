@@ -86,6 +86,7 @@ struct app {
     struct octree model;  /* imported, while ASK_HOLLOW waits */
     uint64_t hollow;      /* its empty cells within */
     const char *written;  /* of the last file: "saving...", "saved" */
+    bool exports;         /* that file is no sculpture */
     size_t forgotten;     /* session.forgotten, when that was told last */
     struct hints hints;
     struct error failed; /* what ended the program */

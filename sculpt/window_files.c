@@ -141,6 +141,17 @@ static bool may_replace(struct app *app)
     return false;
 }
 
+/* That a file is being written from now on, or why it is not; then another that is goes on. */
+static void say_writing(struct app *app, bool exports, enum status status, const struct error *err)
+{
+    app_say(app, status ? err->text : "");
+    app_schedule(app);
+    if (status && app->session.saving)
+        return;
+    app->written = status ? NULL : exports ? "exporting..." : "saving...";
+    app->exports = exports;
+}
+
 static void export(struct app *app)
 {
     struct error err = {0};
@@ -149,10 +160,8 @@ static void export(struct app *app)
         status = error_set(&err, STATUS_RANGE, "%.900s: .vox, .ply and .chips are written", app->answer);
     if (!status)
         status = session_export_begin(&app->session, app->answer, &err);
-    app_say(app, status ? err.text : "");
-    app->written = status ? NULL : "exporting...";
+    say_writing(app, true, status, &err);
     app->question = status ? ASK_NAME : ASK_NOTHING;
-    app_schedule(app);
 }
 
 void app_ask_name(struct app *app, enum naming naming)
@@ -194,9 +203,7 @@ bool app_save(struct app *app, const char *path)
     app_preview(app, &png, &err); /* a sculpture without a preview is whole */
     enum status status = session_save_begin(&app->session, path, &png, &err);
     bytes_clear(&png);
-    app_say(app, status ? err.text : "");
-    app->written = status ? NULL : "saving...";
-    app_schedule(app);
+    say_writing(app, false, status, &err);
     return !status;
 }
 
@@ -206,7 +213,7 @@ void app_follow_write(struct app *app)
     enum status status;
     if (!app->open || !session_write_ended(&app->session, false, &status, &err))
         return;
-    app->written = status ? NULL : app->written && app->written[0] == 'e' ? "exported" : "saved";
+    app->written = status ? NULL : app->exports ? "exported" : "saved";
     app_say(app, status ? err.text : app->session.warning);
     app_show_title(app);
     if (!app->next_when_saved)
