@@ -18,10 +18,11 @@ size_t surface_number_parts(const struct mesh *mesh, uint32_t *part)
     size_t count = 0;
     for (uint32_t p = 0; p < mesh->point_count; p++)
         part[p] = p;
-    for (uint32_t e = 0; e < mesh->edge_count; e++) {
-        uint32_t a = root_of(part, mesh->edge[e][0]), b = root_of(part, mesh->edge[e][1]);
-        part[a > b ? a : b] = a > b ? b : a;
-    }
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        for (int k = 0; k < 2; k++) {
+            uint32_t a = root_of(part, mesh->triangle[t][k]), b = root_of(part, mesh->triangle[t][k + 1]);
+            part[a > b ? a : b] = a > b ? b : a;
+        }
     /* A root is its part's first point, so its number is known before the others ask. */
     for (uint32_t p = 0; p < mesh->point_count; p++)
         part[p] = part[p] == p ? (uint32_t)count++ : part[part[p]];
@@ -63,8 +64,9 @@ static bool count_valences(const struct mesh *mesh, uint32_t *valences)
     return true;
 }
 
-static bool count_parts(const struct mesh *mesh, struct surface_census *census)
+enum status surface_count_parts(const struct mesh *mesh, struct surface_census *census, struct error *err)
 {
+    *census = (struct surface_census){0};
     uint32_t *part = array_new(mesh->point_count, sizeof *part);
     census->part_count = part ? surface_number_parts(mesh, part) : 0;
     census->parts = part ? calloc(census->part_count, sizeof *census->parts) : NULL;
@@ -77,14 +79,16 @@ static bool count_parts(const struct mesh *mesh, struct surface_census *census)
             add_triangle(mesh, t, &census->parts[part[mesh->triangle[t][0]]]);
     }
     free(part);
-    return census->parts;
+    return census->parts ? STATUS_OK : error_no_memory(err, "the parts");
 }
 
 enum status surface_count(const struct mesh *mesh, const struct surface_shape *shape,
                           struct surface_census *census, struct error *err)
 {
-    *census = (struct surface_census){0};
-    if (!count_parts(mesh, census) || !count_valences(mesh, census->valences)) {
+    const enum status status = surface_count_parts(mesh, census, err);
+    if (status)
+        return status;
+    if (!count_valences(mesh, census->valences)) {
         surface_census_clear(census);
         return error_no_memory(err, "the parts");
     }

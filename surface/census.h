@@ -36,11 +36,15 @@ struct surface_census {
 };
 
 /* part[point_count]: the number of the part that each point belongs to, in the order of the parts' first
- * points. Returns how many there are. The mesh must be connected. */
+ * points. Returns how many there are. */
 size_t surface_number_parts(const struct mesh *mesh, uint32_t *part);
 
 /* The angle at corner k of a triangle, in radians. */
 double surface_angle(const struct mesh *mesh, const uint32_t triangle[3], int k);
+
+/* The parts alone. Of a mesh that is not connected they have no edges, euler and genus. Errors:
+ * STATUS_NO_MEMORY. */
+enum status surface_count_parts(const struct mesh *mesh, struct surface_census *census, struct error *err);
 
 /* The mesh must be connected and closed, shape what surface_measure() found. Errors: STATUS_NO_MEMORY. */
 enum status surface_count(const struct mesh *mesh, const struct surface_shape *shape,

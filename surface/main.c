@@ -8,6 +8,7 @@
 #include "surface/main_coarse.h"
 #include "surface/main_cost.h"
 #include "surface/main_info.h"
+#include "surface/main_parts.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -262,7 +263,12 @@ static enum status report(struct mesh *mesh, const struct arguments *arguments, 
         return err->status;
     if (arguments->info && inform(mesh, arguments, tree, stats, err))
         return err->status;
-    char text[COARSE_TEXT];
+    bool several = false;
+    char parts[PARTS_TEXT], text[COARSE_TEXT];
+    if (!arguments->info && parts_tell(mesh, arguments->input, &several, parts, err))
+        return err->status;
+    if (several)
+        command_note("%s", parts);
     if (coarse_tell(tree, arguments->input, &arguments->options, mesh, stats->cube_size, text))
         command_note("%s", text);
     double wanted = arguments->options.triangles;
