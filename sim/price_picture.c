@@ -1,4 +1,5 @@
 #include "sim/price_picture.h"
+#include "sim/accuracy_run.h"
 #include "sim/skins.h"
 
 #include <math.h>
@@ -169,18 +170,22 @@ enum status price_pictures_measure(const struct scene *scene, const struct mesh 
                                    const struct accuracy_options *options, struct price_pictures *pictures,
                                    struct error *err)
 {
+    const struct scene_time *t = &scene->time;
+    const struct accuracy_subject subject = {.scene = scene, .meshes = meshes, .options = options};
+    const struct accuracy_dials dials = {integrator_find("auto"), t->step, t->tolerance, t->end,
+                                         SCENE_GUARD_SUBSTEP,     0};
     struct drawing drawing = {.options = options, .wanted = PRICE_PICTURES_MAX};
-    struct sim sim = {0};
+    struct accuracy_run run;
     double ball[4];
     *pictures = (struct price_pictures){.own_order = scene->view.order, .own_samples = scene->view.samples};
-    enum status status = sim_open(&sim, scene, meshes, 1, err);
+    enum status status = accuracy_open(&run, &subject, &dials, err);
+    if (!status) {
+        ball[3] = skins_ball(&run.sim, ball);
+        status = accuracy_advance(&run, &subject, time, err);
+    }
+    pictures->time = run.sim.time;
     if (!status)
-        ball[3] = skins_ball(&sim, ball);
-    while (!status && sim.time + sim.step / 2 < time && !sim_at_end(&sim))
-        status = sim_step(&sim, err);
-    pictures->time = sim.time;
-    if (!status)
-        status = picture_scene(&sim, ball, &drawing, pictures, err);
-    sim_clear(&sim);
+        status = picture_scene(&run.sim, ball, &drawing, pictures, err);
+    accuracy_close(&run);
     return give_reason(status, pictures, err);
 }

@@ -33,9 +33,10 @@ struct price_pictures {
     char reason[256];           /* why there are no rows, or "" */
 };
 
-/* Steps the scene until `time` by its own method, and draws. meshes as for sim_open(); options->go_on is
- * asked before each picture, options->seconds is not looked at. What cannot be stepped or drawn is no error
- * but pictures->reason. Errors: STATUS_INTERRUPTED, STATUS_NO_MEMORY. */
+/* Steps the scene until `time` by auto, as the first run that found how far there is time to go, and draws.
+ * meshes as for sim_open(); options->go_on is asked before each step and each picture, options->seconds is
+ * not looked at. What cannot be stepped or drawn is no error but pictures->reason. Errors:
+ * STATUS_INTERRUPTED, STATUS_NO_MEMORY. */
 enum status price_pictures_measure(const struct scene *scene, const struct mesh *meshes, double time,
                                    const struct accuracy_options *options, struct price_pictures *pictures,
                                    struct error *err);

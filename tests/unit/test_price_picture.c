@@ -116,22 +116,33 @@ static void what_cannot_be_drawn_is_a_reason_and_no_error(void **state)
     assert_non_null(strstr(pictures.reason, "up"));
 }
 
-static bool three_times(void *context, double done)
+/* How often it has been asked, and may be. */
+struct patience {
+    int asked, most;
+};
+
+static bool while_it_lasts(void *context, double done)
 {
-    int *asked = context;
+    struct patience *p = context;
     assert_true(done >= 0 && done <= 1);
-    return ++*asked < 3;
+    return ++p->asked < p->most;
 }
 
+/* In the steps before the first picture, and in the pictures. */
 static void it_ends_when_it_is_told_to(void **state)
 {
     (void)state;
     struct price_pictures pictures;
     struct error err = {0};
-    int asked = 0;
-    const struct accuracy_options options = {.go_on = three_times, .context = &asked};
-    assert_int_equal(measure(SWELLING, &options, &pictures, &err), STATUS_INTERRUPTED);
-    assert_int_equal(asked, 3);
+    struct patience short_one = {0, 3}, long_one = {0, 12};
+    const struct accuracy_options in_steps = {.go_on = while_it_lasts, .context = &short_one},
+                                  in_pictures = {.go_on = while_it_lasts, .context = &long_one};
+    assert_int_equal(measure(SWELLING, &in_steps, &pictures, &err), STATUS_INTERRUPTED);
+    assert_int_equal(short_one.asked, 3);
+    assert_true(pictures.time < 0.19);
+    assert_int_equal(measure(SWELLING, &in_pictures, &pictures, &err), STATUS_INTERRUPTED);
+    assert_int_equal(long_one.asked, 12);
+    assert_true(pictures.count > 0);
 }
 
 int main(void)
