@@ -223,5 +223,5 @@ void live_prick(struct live *live, const struct hand_hit *hit)
         b++;
     sim_prick(sim, hit->triangle, hit->place);
     if (!b->fracture)
-        sim->triangle_active[hit->triangle] = 0; /* also while nothing steps */
+        sim_drop_triangle(sim, hit->triangle); /* also while nothing steps */
 }

@@ -314,6 +314,14 @@ static inline void sim_break_edge(struct sim *sim, uint32_t edge)
     sim->broken++;
 }
 
+/* Likewise an active triangle: what the skin held there is gone with it. */
+static inline void sim_drop_triangle(struct sim *sim, uint32_t triangle)
+{
+    if (sim->ledger.on)
+        sim->ledger.account.fracture += effects_triangle_energy(sim, triangle);
+    sim->triangle_active[triangle] = 0;
+}
+
 /* Lists all that the future depends on (state.c): equal blocks, equal futures. The list is sim's, made anew
  * by each call; the blocks' addresses stay until sim_clear(). */
 const struct sim_block *sim_blocks(struct sim *sim, size_t *count);

@@ -129,14 +129,6 @@ static void break_edges(struct sim *sim)
     }
 }
 
-/* What the skin held there is gone with it. */
-static void let_triangle_go(struct sim *sim, uint32_t triangle)
-{
-    if (sim->ledger.on)
-        sim->ledger.account.fracture += effects_triangle_energy(sim, triangle);
-    sim->triangle_active[triangle] = 0;
-}
-
 /* Part 3: "if more than one edge is inactive, set triangle inactive". */
 static void tear_triangles(struct sim *sim)
 {
@@ -148,7 +140,7 @@ static void tear_triangles(struct sim *sim)
         const uint32_t *e = sim->triangle_edge[t];
         const int left = sim->edge_active[e[0]] + sim->edge_active[e[1]] + sim->edge_active[e[2]];
         if (left < 2 && sim->triangle_active[t])
-            let_triangle_go(sim, t);
+            sim_drop_triangle(sim, t);
     }
 }
 

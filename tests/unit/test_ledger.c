@@ -1,5 +1,6 @@
 /* The ledger: what comes in goes out or is there, and keeping accounts changes nothing. */
 #include "books.h"
+#include "sim/live.h"
 
 /* The balance's error after .2 s of swelling, at this step; the greatest energy in play goes to *scale. */
 static double error_at(const char *integrator, double step, double *scale)
@@ -63,6 +64,27 @@ static void what_a_breaking_edge_held_is_counted_exactly(void **state)
     const struct ledger_balance after = balance(&b);
     assert_true(after.fracture > 0.3 * elastic);
     assert_near(after.error, before, 1e-16 * b.sim.edge_count * elastic);
+    close_balloon(&b);
+}
+
+/* Between two steps, where no step sees it go. */
+static void what_a_pricked_triangle_held_is_counted_exactly(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 2,
+                 SETTINGS("balloons[0].membrane.thickness=0.45", "balloons[0].pressure_on=areas",
+                          "balloons[0].pressure=0.2"));
+    open_books(&b);
+    steps(&b, 10);
+    struct live live = {.sim = &b.sim};
+    const struct hand_hit hit = {.triangle = 7};
+    const double before = balance(&b).error, elastic = sim_measure(&b.sim).elastic_energy;
+    live_prick(&live, &hit);
+    const double held = elastic - sim_measure(&b.sim).elastic_energy;
+    assert_true(held > 1e-3 * elastic);
+    assert_near(balance(&b).fracture, held, 1e-13 * elastic);
+    assert_near(balance(&b).error, before, 1e-13 * elastic);
     close_balloon(&b);
 }
 
@@ -264,6 +286,7 @@ int main(void)
         cmocka_unit_test(its_error_falls_with_the_integrators_order),
         cmocka_unit_test(at_rest_all_accounts_stay_at_zero),
         cmocka_unit_test(what_a_breaking_edge_held_is_counted_exactly),
+        cmocka_unit_test(what_a_pricked_triangle_held_is_counted_exactly),
         cmocka_unit_test(an_edge_without_an_arm_held_nothing_in_it),
         cmocka_unit_test(a_scheduled_change_of_springs_is_the_users_work),
         cmocka_unit_test(it_balances_through_a_burst),
