@@ -41,11 +41,13 @@ static void centre_now(const struct sim *sim, const struct sim_balloon *balloon,
 }
 
 /* Cuts the active edges whose ends lie on two sides of the plane through the centre, spanned by place and
- * direction, and whose middle is within half an arc of place: the angle is the cut's length in mean radii. */
-static void cut(struct sim *sim, const struct sim_balloon *balloon)
+ * direction, and whose middle is within half an arc of place: the angle is the cut's length in mean radii.
+ * Returns how many. */
+static uint32_t cut(struct sim *sim, const struct sim_balloon *balloon)
 {
     const struct scene_rip *rip = &balloon->scene->rip;
     double centre[3], place[3], across[3], along[3];
+    uint32_t cuts = 0;
     centre_now(sim, balloon, centre);
     for (int i = 0; i < 3; i++)
         place[i] = rip->place[i];
@@ -61,9 +63,12 @@ static void cut(struct sim *sim, const struct sim_balloon *balloon)
             middle[i] = a[i] + b[i];
         bool crosses = (vec3_dot(a, across) < 0) != (vec3_dot(b, across) < 0);
         double angle = atan2(vec3_dot(middle, along), vec3_dot(middle, place));
-        if (sim->edge_active[e] && crosses && fabs(angle) <= rip->length / 2)
+        if (sim->edge_active[e] && crosses && fabs(angle) <= rip->length / 2) {
             sim_break_edge(sim, e);
+            cuts++;
+        }
     }
+    return cuts;
 }
 
 static void apply(struct sim *sim, struct sim_balloon *balloon)
@@ -72,10 +77,8 @@ static void apply(struct sim *sim, struct sim_balloon *balloon)
     if (balloon->now->ripped || sim->time < rip->at || mean_stretch(sim, balloon) < rip->stretch)
         return;
     balloon->now->ripped = 1;
-    if (balloon->fracture)
-        fracture_rip(sim, balloon);
-    else
-        cut(sim, balloon);
+    if ((balloon->fracture ? fracture_rip(sim, balloon) : cut(sim, balloon)) == 0)
+        sim_tell(sim, balloon, "rip", "has cut nothing: no edge crosses it; give rip.length more");
 }
 
 static double due(const struct sim_balloon *balloon)

@@ -222,7 +222,7 @@ void fracture_prick(struct sim *sim, struct sim_balloon *b, const double place[3
 }
 
 /* At the point at rest that lies most nearly in the direction of place. */
-void fracture_rip(struct sim *sim, struct sim_balloon *b)
+uint32_t fracture_rip(struct sim *sim, struct sim_balloon *b)
 {
     const struct scene_rip *rip = &b->scene->rip;
     uint32_t nearest = b->point_begin;
@@ -237,8 +237,9 @@ void fracture_rip(struct sim *sim, struct sim_balloon *b)
         }
     }
     b->fracture->stamps++;
-    fracture_slit(sim, b, nearest, rip->direction, rip->length / 2 * b->radius);
+    const uint32_t cuts = fracture_slit(sim, b, nearest, rip->direction, rip->length / 2 * b->radius);
     fracture_tell_gas(sim, b);
+    return cuts;
 }
 
 double fracture_wave_speed(const struct sim_balloon *b)

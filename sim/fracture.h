@@ -84,8 +84,8 @@ uint32_t fracture_slit(struct sim *sim, struct sim_balloon *balloon, uint32_t po
  * skin is now, across the largest tension there. */
 void fracture_prick(struct sim *sim, struct sim_balloon *balloon, const double place[3]);
 
-/* The scene's rip as a slit. */
-void fracture_rip(struct sim *sim, struct sim_balloon *balloon);
+/* The scene's rip as a slit. Returns the cuts. */
+uint32_t fracture_rip(struct sim *sim, struct sim_balloon *balloon);
 
 /* Whether what came from a file can be cracks; what follows from them, once blocks were put back. */
 bool fracture_is_sound(const struct sim *sim, const struct sim_balloon *balloon);

@@ -269,6 +269,19 @@ static void note_needles(const struct sim *sim)
     }
 }
 
+/* Rips that have not opened, and what they wait for. */
+static void note_rips(const struct sim *sim)
+{
+    for (size_t i = 0; i < sim->balloon_count; i++) {
+        const struct scene_rip *rip = &sim->balloons[i].scene->rip;
+        if (rip->on && !sim->balloons[i].now->ripped)
+            command_note(
+                "balloons[%zu].rip has not opened: it waits for %g s, and until the mean edge is %g times "
+                "as long as at rest",
+                i, rip->at, rip->stretch);
+    }
+}
+
 static void print_summary(struct run *run)
 {
     struct sim *sim = run->sim;
@@ -312,8 +325,10 @@ enum status run(const struct options *options, struct sim *sim, struct estimate 
         status = save_skin(sim, options->mesh, err);
     if (!status && options->pieces)
         status = save_pieces(sim, options->pieces, err);
-    if (!status)
+    if (!status) {
         print_summary(&run);
+        note_rips(sim);
+    }
     if (!status && run.first_break < 0) {
         note_nearest(&run);
         note_needles(sim);

@@ -79,6 +79,24 @@ static void a_rip_opens_at_its_time_and_place(void **state)
     close_balloon(&b);
 }
 
+/* Shorter than the way between two edges it crosses none. */
+static void a_rip_that_cuts_nothing_says_so(void **state)
+{
+    (void)state;
+    static const char *const lengths[] = {"balloons[0].rip.length=1e-6", "balloons[0].rip.length=0"},
+                             *const modes[] = {"balloons[0].fracture.mode=paper",
+                                               "balloons[0].fracture.mode=tear"};
+    for (int i = 0; i < 2; i++) {
+        struct balloon b;
+        open_balloon(&b, 2, SETTINGS(lengths[i], modes[i], "balloons[0].pressure=0"));
+        steps(&b, 2);
+        assert_int_equal(b.sim.broken, 0);
+        assert_int_equal(b.sim.news_count, 1);
+        assert_string_equal(b.sim.news[0].effect, "rip");
+        close_balloon(&b);
+    }
+}
+
 static void a_rip_waits_for_its_stretch(void **state)
 {
     (void)state;
@@ -253,6 +271,7 @@ int main(void)
         cmocka_unit_test(the_scene_decides_size_place_and_mass),
         cmocka_unit_test(springs_by_height_follow_the_profile),
         cmocka_unit_test(a_rip_opens_at_its_time_and_place),
+        cmocka_unit_test(a_rip_that_cuts_nothing_says_so),
         cmocka_unit_test(a_rip_waits_for_its_stretch),
         cmocka_unit_test(the_schedule_changes_step_and_pressure_between_steps),
         cmocka_unit_test(two_runs_are_equal_to_the_bit_and_a_hash_tells_states_apart),

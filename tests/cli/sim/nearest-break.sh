@@ -30,3 +30,12 @@ expect 0 balloon-sim torn.cfg --log log.tsv
 stderr_has 'nearest to breaking came balloons\[0\] at [0-9.]* s, to [0-9]* %: skin as if stretched 1\.[0-9]* times both ways, which tears at 4$'
 expect 0 balloon-sim torn.cfg --quiet --hash
 [ ! -s .stderr ] || fail "--quiet says something"
+
+# A rip that waited to the end for its time, or for its stretch.
+set -- m.ply --set time.end=0.5 --set time.integrator=verlet --set balloons[0].pressure=0
+expect 0 balloon-sim "$@" --set balloons[0].rip.at=3 --hash
+stderr_has '^balloon-sim: balloons\[0\]\.rip has not opened: it waits for 3 s, and until the mean edge is 1 times as long as at rest$'
+expect 0 balloon-sim "$@" --set balloons[0].rip.stretch=1.5 --hash
+stderr_has 'it waits for 0 s, and until the mean edge is 1.5 times as long'
+expect 0 balloon-sim "$@" --set balloons[0].rip.at=0.1 --hash
+! grep -q 'not opened' .stderr || fail "it has opened, and is said not to have"
