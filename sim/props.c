@@ -26,6 +26,8 @@ static void draw(struct drawing *d, const double from[3], const double to[3], co
     memcpy(line->colour, colour, sizeof line->colour);
 }
 
+static const double rod = 0.2; /* how long a weight is, in radii */
+
 /* A weight hangs as a short rod. */
 static void draw_string(struct drawing *d, const struct sim *sim, const struct sim_balloon *b)
 {
@@ -34,7 +36,7 @@ static void draw_string(struct drawing *d, const struct sim *sim, const struct s
         return;
     draw(d, skin, end, string_colour, 1);
     memcpy(foot, end, sizeof foot);
-    foot[1] -= 0.2 * b->radius;
+    foot[1] -= rod * b->radius;
     if (b->scene->string.weight > 0)
         draw(d, end, foot, iron, 5);
 }
@@ -91,6 +93,18 @@ static void draw_ball(struct drawing *d, const struct scene_obstacles *ball)
             place_on_circle(ball, across, side + 1, to);
             draw(d, from, to, wall, 1);
         }
+}
+
+double props_foot(const struct sim *sim)
+{
+    double foot = INFINITY;
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++) {
+        const struct scene_string *string = &b->scene->string;
+        const double end = string->to[1] - (string->weight > 0 ? rod : 0);
+        if (string->on)
+            foot = fmin(foot, b->centre[1] + end * b->radius);
+    }
+    return foot;
 }
 
 size_t props_room(const struct sim *sim)

@@ -6,6 +6,9 @@
 #include "render/render.h"
 #include "sim/sim.h"
 
+/* Where the lowest end of a string, or the weight that hangs there, is at first: y; INFINITY without any. */
+double props_foot(const struct sim *sim);
+
 /* How many lines that is at the most. */
 size_t props_room(const struct sim *sim);
 

@@ -144,7 +144,7 @@ void skins_floor(const struct skins *skins, const double ball[4], struct render_
                        ground->normal[1] > 0;
     const double below = fmin(fmax((ball[1] - skins->lowest) / ball[3], floor_least), floor_most);
     view->floor = true;
-    view->floor_height = level ? ground->height : ball[1] - below * ball[3];
+    view->floor_height = level ? ground->height : fmin(ball[1] - below * ball[3], props_foot(skins->sim));
 }
 
 void skins_view(const struct scene_view *scene, struct render_view *view)

@@ -38,7 +38,8 @@ void skins_view(const struct scene_view *scene, struct render_view *view);
 void skins_camera(const struct sim *sim, const double centre[3], double radius, struct render_view *view);
 
 /* The picture's floor, that shadows lie on: the scene's ground where that is level; else skins stand on it as
- * they are, and it sinks as they swell, but it does not follow what flies away. `ball`: around all points at
+ * they are, and it sinks as they swell, but it does not follow what flies away; or strings' ends and weights
+ * do, as they were at first, where they are lower. `ball`: around all points at
  * rest, centre and radius. After skins_update(). */
 void skins_floor(const struct skins *skins, const double ball[4], struct render_view *view);
 

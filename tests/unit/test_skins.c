@@ -57,6 +57,19 @@ static void level_ground_is_the_floor_and_a_slope_is_not(void **state)
     assert_near(depth_of_floor(slope, 0, 1), 1, 1e-9);
 }
 
+/* The weight, a fifth of a radius long, hung below the floor and its shadow. It may rise, and fall again. */
+static void weights_and_ends_of_strings_are_above_the_floor(void **state)
+{
+    (void)state;
+    const char *const *held = SETTINGS("balloons[0].string.to=[0, -3, 0]");
+    const char *const *weight = SETTINGS("balloons[0].string.to=[0, -3, 0]", "balloons[0].string.weight=5");
+    const char *const *above = SETTINGS("balloons[0].string.to=[0, 3, 0]");
+    assert_near(depth_of_floor(held, 0, 1), 3, 1e-9);
+    assert_near(depth_of_floor(weight, 0, 1), 3.2, 1e-9);
+    assert_near(depth_of_floor(weight, 5, 1), 3.2, 1e-9);
+    assert_near(depth_of_floor(above, 0, 1), 1, 1e-9);
+}
+
 static void assert_line(const struct render_line *line, const double from[3], const double to[3])
 {
     for (int i = 0; i < 3; i++) {
@@ -151,6 +164,7 @@ int main(void)
         cmocka_unit_test(skin_stands_on_the_floor_while_it_swells),
         cmocka_unit_test(the_floor_does_not_follow_what_flies_away),
         cmocka_unit_test(level_ground_is_the_floor_and_a_slope_is_not),
+        cmocka_unit_test(weights_and_ends_of_strings_are_above_the_floor),
         cmocka_unit_test(points_of_a_sphere_have_its_normals),
         cmocka_unit_test(a_point_without_triangles_has_no_normal),
         cmocka_unit_test(what_is_there_beside_balloons_is_drawn_as_lines),
