@@ -2,8 +2,13 @@
 . "$CASES/live.sh"
 
 open_live --set time.guard=substep --set time.step=0.5
+tries=0
+until grep -q 'time.step 0.5 is split in [0-9]*: ' said; do
+    tries=$((tries + 1))
+    [ $tries -lt 200 ] || fail "that steps are split is not said"
+    sleep 0.05
+done
 pause
-grep -q 'time.step 0.5 is split in [0-9]*: ' said || fail "that steps are split is not said"
 picture told
 command -v import >/dev/null && import -window "$window" -crop 500x12+8+58 +repage told.ppm
 press Prior Prior Prior Prior
