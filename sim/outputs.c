@@ -1,9 +1,12 @@
 #include "sim/outputs.h"
+#include "common/command.h"
 #include "common/file.h"
+#include "sim/interrupt.h"
 #include "sim/log_plot.h"
 #include "sim/skins.h"
 
 #include <math.h>
+#include <signal.h>
 
 void outputs_find_rest(struct outputs *outputs, const struct sim *sim)
 {
@@ -105,11 +108,20 @@ static enum status show_state(struct outputs *outputs, struct sim *sim, struct e
 
 enum status outputs_finish(struct outputs *outputs, struct error *err)
 {
+    const long count = outputs->turntable_frames;
     enum status status = STATUS_OK;
-    for (long i = 0; i < outputs->turntable_frames && !status; i++) {
-        film_turn(outputs->film, (double)i / (double)outputs->turntable_frames);
-        status = film_frame(outputs->film, err);
+    if (count > 0)
+        progress_begin("drawing", "the last state from all sides", "pictures", (double)count);
+    for (long i = 0; i < count && !status; i++) {
+        const int caught = interrupt_caught();
+        film_turn(outputs->film, (double)i / (double)count);
+        status = caught ? error_set(err, caught == SIGINT ? STATUS_INTERRUPTED : STATUS_TERMINATED,
+                                    "interrupted after %ld of %ld pictures of the last state", i, count)
+                        : film_frame(outputs->film, err);
+        progress_update((double)(i + 1));
     }
+    if (count > 0)
+        progress_end();
     return status;
 }
 
@@ -169,8 +181,12 @@ enum status outputs_close(struct outputs *outputs, enum status status, struct er
         closed = other.status;
     if (close_files(outputs, keep, closed ? NULL : &other) && !closed)
         closed = other.status;
-    if (status || !closed)
-        return status;
-    *err = other;
-    return closed;
+    if (status && closed) {
+        const struct error first = *err;
+        return error_set(err, status, "%.600s; what was logged and drawn could not be kept: %.300s",
+                         first.text, other.text);
+    }
+    if (closed)
+        *err = other;
+    return status ? status : closed;
 }

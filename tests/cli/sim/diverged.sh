@@ -7,6 +7,8 @@ refused 3 'm.ply: diverged at time [0-9]+ \(step [0-9]+\): point [0-9]+ of ballo
 a_file log.tsv
 refused 3 'diverged at time' balloon-sim m.ply $wild --set balloons[0].damping=1e9 --frames frames --contact-sheet sheet.png
 a_file frames/frame_0000.png
+refused 3 'diverged at time .*; what was logged and drawn could not be kept: /dev/full: cannot write: No space left on device$' \
+    balloon-sim m.ply $wild --set balloons[0].damping=1e9 --log /dev/full
 
 # what is left once edges let go is stable in any steps, and tells nothing of those before
 refused 3 'sphere.ply: diverged at time .*; what is left is stable in such steps, and time.guard = "off" asks for no more: try time.guard=substep$' \

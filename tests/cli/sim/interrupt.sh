@@ -50,3 +50,18 @@ command_line="balloon-sim storm.cfg (SIGINT)"
 [ "$got" = 130 ] || fail "exit $got, wanted 130"
 stderr_has 'interrupted at 0 s, after 0 steps; to go on: the same command with --resume storm.ck'
 a_file storm.ck
+
+# ... and while the last state is drawn from all sides: what was drawn stays.
+env --default-signal=INT balloon-sim m.ply --set time.end=0.1 --set view.size=[640,480] --frames round --turntable=100000 >.stdout 2>.stderr &
+job=$!
+for wait in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
+    [ -e round/frame_0002.png ] && break
+    sleep 0.25
+done
+kill -s INT $job
+got=0
+wait $job || got=$?
+command_line="balloon-sim --turntable=100000 (SIGINT)"
+[ "$got" = 130 ] || fail "exit $got, wanted 130"
+stderr_has '^balloon-sim: interrupted after [0-9]+ of 100000 pictures of the last state$'
+a_file round/frame_0002.png
