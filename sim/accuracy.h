@@ -94,8 +94,8 @@ struct accuracy_table {
 };
 
 /* meshes as for sim_open(). Errors: those of sim_open() and sim_step() for the first run and the
- * references, STATUS_INTERRUPTED, STATUS_NO_MEMORY; what an integrator of the table fails in is no error
- * but a line of the table. */
+ * references, STATUS_INPUT where the scene ends before a step, STATUS_INTERRUPTED, STATUS_NO_MEMORY; what an
+ * integrator of the table fails in is no error but a line of the table. */
 enum status accuracy_measure(const struct scene *scene, const struct mesh *meshes,
                              const struct accuracy_options *options, struct accuracy_table *table,
                              struct error *err);

@@ -31,10 +31,14 @@ static enum status watch(struct accuracy_run *run, struct accuracy_plan *plan, s
         if (run->sim.broken > run->sim.edge_count / 100)
             table->burst = run->sim.time;
     }
-    if (!status || status == STATUS_RESOURCE)
-        return STATUS_OK;
-    *err = slow;
-    return status;
+    if (status && status != STATUS_RESOURCE) {
+        *err = slow;
+        return status;
+    }
+    if (run->sim.steps == 0)
+        return error_set(err, STATUS_INPUT, "time.end = %g is over before a step of time.step = %g",
+                         run->scene.time.end, run->scene.time.step);
+    return STATUS_OK;
 }
 
 enum status accuracy_find_reach(struct accuracy_plan *plan, struct error *err)

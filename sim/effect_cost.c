@@ -73,6 +73,10 @@ static enum status find_span(const struct subject *s, double limit, struct effec
     table->bytes = whole.sim.bytes;
     while (!status && !sim_at_end(&whole.sim) && (now() - began < limit || whole.sim.time < least))
         status = step(s, &whole, err);
+    if (!status && whole.sim.steps == 0)
+        status = error_set(err, STATUS_INPUT,
+                           "--effect-cost: time.end = %g is over before a step of time.step = %g",
+                           s->scene->time.end, s->scene->time.step);
     *seconds = now() - began;
     table->end = s->scene->time.end;
     table->span = fmin(whole.sim.time, table->end);
@@ -80,7 +84,7 @@ static enum status find_span(const struct subject *s, double limit, struct effec
         table->steps = whole.sim.steps;
         table->pieces = sim_measure(&whole.sim).pieces;
         table->first_break = whole.first_break;
-        table->seconds = *seconds / fmax((double)whole.sim.steps, 1);
+        table->seconds = *seconds / (double)whole.sim.steps;
     }
     sim_clear(&whole.sim);
     return status;

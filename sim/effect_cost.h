@@ -61,7 +61,7 @@ struct effect_cost_table {
 };
 
 /* meshes as for sim_open(). Errors: those of sim_open() and sim_step() for the whole scene;
- * STATUS_INTERRUPTED; STATUS_NO_MEMORY. */
+ * STATUS_INPUT where that ends before a step; STATUS_INTERRUPTED; STATUS_NO_MEMORY. */
 enum status effect_cost_measure(const struct scene *scene, const struct mesh *meshes,
                                 const struct effect_cost_options *options, struct effect_cost_table *table,
                                 struct error *err);

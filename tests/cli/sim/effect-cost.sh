@@ -14,6 +14,10 @@ stdout_has '^# gravity: (saves )?[0-9.e+]+ % of the time, changes positions by 0
 stdout_has '^# gas in place of a constant pressure, '
 only_files cube.oct cube.ply cost.tsv
 
+# of what makes no step nothing can be told: each effect was said not to be needed
+expect 1 balloon-sim cube.ply $calm $effects --set time.end=0.01 --effect-cost cost.tsv
+stderr_has '--effect-cost: time\.end = 0\.01 is over before a step of time\.step = 0\.025$'
+
 # what is for a run is told that its place is taken, and the work is done
 expect 0 balloon-sim cube.ply $calm --set gravity.acceleration=[0,-3,0] --threads 2 --effect-cost cost.tsv
 stderr_has '--threads is for a run, whose place --effect-cost takes: it does nothing'
