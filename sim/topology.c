@@ -2,6 +2,7 @@
 #include "sim/effect_gas.h"
 #include "sim/guard.h"
 #include "sim/membrane.h"
+#include "sim/pins.h"
 #include "sim/reorder.h"
 
 #include <stdlib.h>
@@ -219,6 +220,7 @@ static uint32_t copy_point(struct sim *sim, struct sim_balloon *b, uint32_t poin
     }
     memcpy(top->rest[copy - b->point_begin], top->rest[point - b->point_begin], sizeof *top->rest);
     gas_hold_copy(b, point, copy);
+    pins_hold_copy(b, copy);
     sim->mass[copy] = sim->mass[point] * share;
     sim->mass[point] -= sim->mass[copy];
     parts_extend(top->tail, b->point_end, b->edge_end);
