@@ -44,6 +44,9 @@ static double noise_at(uint64_t seed, const double place[3], double cell)
     return sum;
 }
 
+/* A triangle no wider than this share of its longest side. */
+static const double next_to_line = 0.02;
+
 static void measure_triangles(const struct sim *sim, const struct sim_balloon *b)
 {
     struct fracture *f = b->fracture;
@@ -55,7 +58,10 @@ static void measure_triangles(const struct sim *sim, const struct sim_balloon *b
         vec3_cross(d1, d2, cross);
         f->shape[i][0] = vec3_length(d1);
         f->shape[i][1] = vec3_dot(d1, d2) / f->shape[i][0];
-        f->shape[i][2] = vec3_length(cross) / f->shape[i][0];
+        const double twice = vec3_length(cross),
+                     square = fmax(fmax(vec3_dot(d1, d1), vec3_dot(d2, d2)),
+                                   vec3_dot(d1, d1) - 2 * vec3_dot(d1, d2) + vec3_dot(d2, d2));
+        f->shape[i][2] = twice > next_to_line * square ? twice / f->shape[i][0] : 0;
         for (int k = 0; k < 3; k++)
             f->middle[i][k] = sim->position[p[0]][k] + (d1[k] + d2[k]) / 3;
         double from_centre[3];

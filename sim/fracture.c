@@ -27,6 +27,30 @@ double fracture_equal_stretch(double energy)
     return sqrt(squared);
 }
 
+/* Springs say nothing of how far a triangle is stretched across that is next to a line: it is taken for
+ * stretched as much both ways as its longest side is. */
+static void look_at_line(const struct sim *sim, const struct sim_balloon *b, const uint32_t *p,
+                         struct membrane_state *s)
+{
+    double longest = 0, stretch = 0, side[3] = {0};
+    for (int k = 0; k < 3; k++) {
+        const uint32_t from = p[k], to = p[(k + 1) % 3];
+        const double rest = vec3_distance(crack_rest(b, from), crack_rest(b, to));
+        if (rest > longest) {
+            longest = rest;
+            vec3_sub(sim->position[to], sim->position[from], side);
+            stretch = vec3_length(side) / rest;
+        }
+    }
+    *s = (struct membrane_state){.stretch = {stretch, stretch}};
+    crack_unit(side);
+    memcpy(s->direction, side, sizeof side);
+    if (stretch <= 1)
+        return;
+    s->energy = fracture_equal_energy(stretch);
+    s->stress[0] = s->stress[1] = stretch - pow(stretch, -5);
+}
+
 /* Principal stretches from F = [d1 d2] [(a, 0), (b, c)]^-1, whose columns are f1 and f2; then neo-Hookean,
  * with tension-field wrinkles (membrane.h). */
 static void look_at_springs(const struct sim *sim, const struct sim_balloon *b, uint32_t triangle,
@@ -34,6 +58,10 @@ static void look_at_springs(const struct sim *sim, const struct sim_balloon *b, 
 {
     const double *shape = b->fracture->shape[triangle - b->triangle_begin];
     const uint32_t *p = sim->triangle_point[triangle];
+    if (shape[2] == 0) {
+        look_at_line(sim, b, p, s);
+        return;
+    }
     double f1[3], f2[3];
     for (int i = 0; i < 3; i++) {
         const double d1 = sim->position[p[1]][i] - sim->position[p[0]][i],

@@ -38,7 +38,8 @@ struct crack_tip {
 };
 
 struct fracture {
-    double (*shape)[3];  /* [triangles] sides at rest in their plane: (a, 0), (b, c) */
+    /* [triangles] sides at rest in their plane: (a, 0), (b, c); c is 0 where it is next to a line */
+    double (*shape)[3];
     double *energy;      /* [triangles] W by the last look */
     double *noise;       /* [triangles] -1 to 1 */
     double (*middle)[3]; /* [triangles] at rest */

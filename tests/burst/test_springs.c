@@ -2,6 +2,8 @@
 #include "burst/inflated.h"
 #include "common/scene_fields.h"
 
+#include <string.h>
+
 static void turn_springs(struct inflated *it, double factor)
 {
     struct scene_schedule change = {.balloon = -1, .change_count = 1};
@@ -68,12 +70,59 @@ static void springs_of_nothing_tear_once_they_are_turned_on(void **unused)
     skin_tears_once_springs_are_turned_on("balloons[0].spring_factor=1e-8");
 }
 
+/* An icosphere one side of which has a third triangle between its two, `width` times as wide as they are. */
+static void make_slivered(struct mesh *mesh, double width)
+{
+    struct mesh ball;
+    struct error err = {0};
+    shape_icosphere(3, &ball);
+    const uint32_t points = ball.point_count, triangles = ball.triangle_count, *p = ball.triangle[0];
+    assert_ok(mesh_init(mesh, points + 1, triangles + 2, false, &err), &err);
+    memcpy(mesh->position, ball.position, points * sizeof *mesh->position);
+    memcpy(mesh->triangle, ball.triangle, triangles * sizeof *mesh->triangle);
+    for (int i = 0; i < 3; i++) {
+        const double middle = (ball.position[p[0]][i] + ball.position[p[1]][i]) / 2;
+        mesh->position[points][i] = middle + width * (ball.position[p[2]][i] - middle);
+    }
+    memcpy(mesh->triangle[0], (uint32_t[3]){p[0], points, p[2]}, sizeof *mesh->triangle);
+    memcpy(mesh->triangle[triangles], (uint32_t[3]){points, p[1], p[2]}, sizeof *mesh->triangle);
+    memcpy(mesh->triangle[triangles + 1], (uint32_t[3]){p[0], p[1], points}, sizeof *mesh->triangle);
+    assert_ok(mesh_connect(mesh, &err), &err);
+    mesh_clear(&ball);
+}
+
+/* Springs let it open as it may: hardly stretched skin tore there at once. */
+static void what_is_next_to_a_line_tears_no_sooner(void **unused)
+{
+    (void)unused;
+    static const double widths[] = {0, 1e-12, 1e-7, 1e-3, 1e-2};
+    for (size_t i = 0; i < sizeof widths / sizeof widths[0]; i++) {
+        struct inflated it = {0};
+        struct mesh mesh;
+        struct error err = {0};
+        make_slivered(&mesh, widths[i]);
+        assert_ok(scene_from_mesh("balloon.ply", &it.scene, &err), &err);
+        set_springs(&it.scene, 1.1, 0.15);
+        assert_ok(scene_set(&it.scene, "time.guard=substep", &err), &err);
+        assert_ok(scene_set(&it.scene, "balloons[0].fracture.mode=tear", &err), &err);
+        assert_ok(sim_open(&it.sim, &it.scene, &mesh, 1, &err), &err);
+        run_until(&it, 2);
+        assert_int_equal(it.sim.broken, 0);
+        double held, borne;
+        assert_true(fracture_nearest(it.sim.balloons, &held, &borne));
+        assert_true(fracture_equal_stretch(held) < 1.3);
+        mesh_clear(&mesh);
+        deflate(&it);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(springs_by_height_tear_as_those_said_outright),
         cmocka_unit_test(springs_that_are_turned_tear_as_those_said_outright),
         cmocka_unit_test(springs_of_nothing_tear_once_they_are_turned_on),
+        cmocka_unit_test(what_is_next_to_a_line_tears_no_sooner),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
