@@ -2,6 +2,7 @@
 #include "common/array.h"
 #include "common/random.h"
 #include "common/scene_checks.h"
+#include "sim/weights.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -161,8 +162,8 @@ static void note(struct sim *sim, double time, int i, struct accuracy_states *st
     sim_look_end(sim);
 }
 
-enum status accuracy_visit(struct accuracy_run *run, const struct accuracy_subject *subject,
-                           struct accuracy_states *states, struct error *err)
+static enum status visit(struct accuracy_run *run, const struct accuracy_subject *subject,
+                         struct accuracy_states *states, struct error *err)
 {
     for (int i = 0; i < ACCURACY_TIMES; i++) {
         const enum status status = accuracy_advance(run, subject, subject->time[i], err);
@@ -175,26 +176,12 @@ enum status accuracy_visit(struct accuracy_run *run, const struct accuracy_subje
     return STATUS_OK;
 }
 
-static double distance_at(const struct sim *sim, double (*a)[4], double (*b)[4])
-{
-    double sum = 0;
-    for (const struct sim_balloon *balloon = sim->balloons; balloon < sim->balloons + sim->balloon_count;
-         balloon++) {
-        double own = 0;
-        for (uint32_t p = balloon->point_begin; p < balloon->point_end; p++)
-            for (int i = 0; i < 3; i++)
-                own += (a[p][i] - b[p][i]) * (a[p][i] - b[p][i]);
-        sum += balloon->radius > 0 ? own / (balloon->radius * balloon->radius) : own;
-    }
-    return sqrt(sum / sim->point_count);
-}
-
 double accuracy_distance(const struct sim *sim, const struct accuracy_states *a,
                          const struct accuracy_states *b)
 {
     double largest = 0;
     for (int i = 0; i < ACCURACY_TIMES; i++) {
-        const double distance = distance_at(sim, a->position[i], b->position[i]);
+        const double distance = weights_distance(sim, b->position[i], a->position[i]);
         if (!(distance <= largest)) /* no number is the worst */
             largest = distance;
     }
@@ -210,7 +197,7 @@ enum status accuracy_go(struct accuracy_run *run, const struct accuracy_subject 
     if (!status && !states->position[0])
         status = accuracy_states_open(states, &run->sim, err);
     if (!status)
-        status = accuracy_visit(run, subject, states, err);
+        status = visit(run, subject, states, err);
     if (status)
         accuracy_close(run);
     return status;

@@ -56,16 +56,13 @@ enum status accuracy_advance(struct accuracy_run *run, const struct accuracy_sub
 enum status accuracy_states_open(struct accuracy_states *states, const struct sim *sim, struct error *err);
 void accuracy_states_close(struct accuracy_states *states);
 
-/* Goes through all the subject's times. Errors: those of accuracy_step(); STATUS_INPUT when something breaks
- * before the last of them. */
-enum status accuracy_visit(struct accuracy_run *run, const struct accuracy_subject *subject,
-                           struct accuracy_states *states, struct error *err);
-
 /* The largest over the times of the RMS distance of the points, each in its balloon's radius. */
 double accuracy_distance(const struct sim *sim, const struct accuracy_states *a,
                          const struct accuracy_states *b);
 
-/* Opens, visits and keeps how long it took. On failure *run is closed, else the caller does that. */
+/* Opens, goes through all the subject's times and keeps how long it took. Errors: those of accuracy_step();
+ * STATUS_INPUT when something breaks before the last of them. On failure *run is closed, else the caller does
+ * that. */
 enum status accuracy_go(struct accuracy_run *run, const struct accuracy_subject *subject,
                         const struct accuracy_dials *dials, double limit, struct accuracy_states *states,
                         struct error *err);

@@ -92,7 +92,8 @@ static double kinetic(const struct sim *sim)
     return energy;
 }
 
-double ledger_energy(struct sim *sim)
+/* What all points move with and what holds them: kinetic and elastic energy of the present state. */
+static double energy_of(struct sim *sim)
 {
     double energy = kinetic(sim) + ledger_elastic(sim, 0, sim->edge_count) + effects_energy(sim);
     for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
@@ -105,20 +106,20 @@ void ledger_note(struct sim *sim)
 {
     if (!sim->ledger.on || sim->ledger.noted)
         return;
-    sim->ledger.before = ledger_energy(sim);
+    sim->ledger.before = energy_of(sim);
     sim->ledger.noted = true;
 }
 
 void ledger_book(struct sim *sim, bool moved)
 {
     if (sim->ledger.noted && moved)
-        sim->ledger.account.contact += sim->ledger.before - ledger_energy(sim);
+        sim->ledger.account.contact += sim->ledger.before - energy_of(sim);
     sim->ledger.noted = false;
 }
 
 void ledger_begin(struct sim *sim)
 {
-    sim->ledger.account = (struct sim_account){.begin = ledger_energy(sim)};
+    sim->ledger.account = (struct sim_account){.begin = energy_of(sim)};
     for (uint32_t i = 0; i < LEDGER_SCALARS; i++)
         sim->scalar[sim->ledger.first + i] = 0;
 }

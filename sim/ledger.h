@@ -41,9 +41,6 @@ void ledger_forces(struct sim *sim);
 /* Energy of the active springs from edge begin to end: k_s (|l| - r)^2 / 2 each. */
 double ledger_elastic(const struct sim *sim, uint32_t begin, uint32_t end);
 
-/* What all points move with and what holds them: kinetic and elastic energy of the present state. */
-double ledger_energy(struct sim *sim);
-
 /* For what moves points at once, obstacles and contact: notes what there is, once, just before they do; and
  * books what that has taken, or nothing where none of it came about. While nothing is noted nothing is worked
  * out. */

@@ -55,10 +55,9 @@ void parts_close(struct sim *sim);
 /* For cuts (topology.h; parts_torn.c). Makes the part of new points, a balloon's last; false: no memory. */
 bool parts_make_tail(struct sim *sim, struct sim_part *tail);
 /* None of these allocates. The part of new points reaches this far; a new edge comes into the parts of its
- * points; all such edges go again; an edge or a triangle has got points that another part works on. */
+ * points; an edge or a triangle has got points that another part works on. */
 void parts_extend(struct sim_part *tail, uint32_t point_end, uint32_t edge_end);
 void parts_new_edge(struct sim *sim, const struct sim_balloon *balloon, uint32_t edge);
-void parts_forget(struct sim *sim, const struct sim_balloon *balloon);
 void parts_loosen_edge(struct sim *sim, const struct sim_balloon *balloon, uint32_t edge);
 void parts_loosen_triangle(struct sim *sim, const struct sim_balloon *balloon, uint32_t triangle);
 /* The balloon's points have other numbers, place[number less the balloon's first] (reorder.h): each part has

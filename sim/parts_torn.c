@@ -69,7 +69,8 @@ void parts_new_edge(struct sim *sim, const struct sim_balloon *balloon, uint32_t
     }
 }
 
-void parts_forget(struct sim *sim, const struct sim_balloon *balloon)
+/* All new edges go again. */
+static void forget(struct sim *sim, const struct sim_balloon *balloon)
 {
     for (struct sim_part *part = sim->parts; part < sim->parts + sim->part_count; part++) {
         if (part->balloon != balloon)
@@ -130,7 +131,7 @@ void parts_renumber(struct sim *sim, const struct sim_balloon *balloon, const ui
     tail->point_begin = tail->inner_begin = tail->inner_end = tail_begin;
     tail->edge_in_count = tail->triangle_in_count = 0;
     parts_extend(tail, balloon->point_end, balloon->edge_end);
-    parts_forget(sim, balloon);
+    forget(sim, balloon);
     for (uint32_t e = balloon->topology->old_edges; e < balloon->edge_end; e++)
         parts_new_edge(sim, balloon, e);
 }

@@ -1,6 +1,7 @@
 #include "sim/trial.h"
 #include "sim/implicit.h"
 #include "sim/vectors.h"
+#include "sim/weights.h"
 
 #include <math.h>
 
@@ -55,23 +56,6 @@ static void limit(struct sim *sim, const struct integrator *method, uint64_t ite
     m->iterations_most = iterations ? m->solver.iterations + iterations : 0;
 }
 
-/* RMS distance of the points from where they were at the end of the run before, each
- * in its balloon's radii. */
-static double distance(const struct sim *sim, double (*coarse)[4])
-{
-    double sum = 0;
-    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++) {
-        double own = 0;
-        for (uint32_t p = b->point_begin; p < b->point_end; p++)
-            for (int i = 0; i < 3; i++) {
-                const double d = sim->position[p][i] - coarse[p][i];
-                own += d * d;
-            }
-        sum += b->radius > 0 ? own / (b->radius * b->radius) : own;
-    }
-    return sqrt(sum / sim->point_count);
-}
-
 struct trial_result trial_run(struct sim *sim, const struct integrator *method, void *own, uint32_t parts,
                               uint32_t steps, int rows)
 {
@@ -99,7 +83,7 @@ struct trial_result trial_run(struct sim *sim, const struct integrator *method, 
         good = advance_by(sim, method, 2 * parts, steps);
     }
     if (good) {
-        const double error = distance(sim, sim->scratch[rows + COARSE]) / steps /
+        const double error = weights_distance(sim, sim->scratch[rows + COARSE], sim->position) / steps /
                              (1 - ldexp(1, -method->order));
         result.error = isfinite(error) ? error : INFINITY;
     }

@@ -103,3 +103,16 @@ double weights_norm(struct sim *sim, double (*dx)[4], double (*dv)[4], double to
     const double sum = vector_sum(sim, block_squares, &(struct difference){dx, dv});
     return sqrt(sum / sim->point_count) / tolerance;
 }
+
+double weights_distance(const struct sim *sim, double (*from)[4], double (*to)[4])
+{
+    double sum = 0;
+    for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++) {
+        double own = 0;
+        for (uint32_t p = b->point_begin; p < b->point_end; p++)
+            for (int i = 0; i < 3; i++)
+                own += (to[p][i] - from[p][i]) * (to[p][i] - from[p][i]);
+        sum += b->radius > 0 ? own / (b->radius * b->radius) : own;
+    }
+    return sqrt(sum / sim->point_count);
+}

@@ -21,6 +21,10 @@ double weights_of_body(const struct sim *sim, uint32_t scalar);
 /* Likewise where it records what was brought into a balloon: by what gas fills that; 0: it does not. */
 double weights_of_record(const struct sim *sim, uint32_t scalar);
 
+/* RMS distance of the points, each in its balloon's mean radius, from one set of rows of [point_count] to
+ * another. */
+double weights_distance(const struct sim *sim, double (*from)[4], double (*to)[4]);
+
 /* RMS over the points of (dx, dv), both rows of [point_count], over the tolerance. */
 double weights_norm(struct sim *sim, double (*dx)[4], double (*dv)[4], double tolerance);
 
