@@ -100,6 +100,14 @@ const char shader_paper_vertex[] = "#version 330 core\n"
     "    added = on_film(seen);\n"                                                                     \
     "}\n"
 
+/* How far the inside, where it is seen, is within: by the light that passes such skin. Where hardly any of a
+ * colour does, it is not seen through the skin, but is turned outside, and would be black. */
+#define ENCLOSED                                    \
+    "vec3 enclosed(vec3 passing)\n"                 \
+    "{\n"                                           \
+    "    return smoothstep(0.02, 0.15, passing);\n" \
+    "}\n"
+
 /*
  * Latex by its film thickness. A vertex has its optical depth at K + S = 1 (`film`: thickness at rest over
  * area stretch) and its roughness. Absorption follows from the colour by Kubelka and Munk (1931), K/S = (1 -
@@ -117,7 +125,7 @@ const char shader_latex_vertex[] =
     "layout(location = 3) in float roughness;\n"
     "layout(location = 4) in vec4 colour_closed;\n"
     "uniform mat4 projection;\n"
-    "uniform vec3 eye;\n" STUDIO "centroid out vec3 skin_normal, skin_to_eye;\n"
+    "uniform vec3 eye;\n" STUDIO ENCLOSED "centroid out vec3 skin_normal, skin_to_eye;\n"
     "centroid out vec3 skin_depth, skin_outside, skin_inside;\n"
     "centroid out float skin_roughness, skin_closed;\n"
     "const float scattering = 2.0;\n"
@@ -134,12 +142,12 @@ const char shader_latex_vertex[] =
     "    float closed = colour_closed.a;\n"
     "    float outside = 1.25 * body_light(n, 0.0), behind = 1.25 * body_light(-n, 0.0);\n"
     "    vec3 glow = 0.45 * passed / (1.0 - 0.94 * reflected);\n"
-    "    vec3 inside = mix(vec3(behind), glow, closed);\n"
+    "    skin_depth = (absorption + scattering) * film;\n"
+    "    vec3 inside = mix(vec3(behind), glow, closed * enclosed(exp(-skin_depth)));\n"
     "    skin_outside = reflected * outside + passed * inside;\n"
     "    skin_inside = reflected * inside + passed * outside;\n"
     "    skin_normal = normal;\n"
     "    skin_to_eye = eye - position;\n"
-    "    skin_depth = (absorption + scattering) * film;\n"
     "    skin_roughness = roughness;\n"
     "    skin_closed = closed;\n"
     "    gl_Position = projection * vec4(position, 1.0);\n"
@@ -155,28 +163,29 @@ const char shader_latex_vertex[] =
  * dark behind the skin, or a grazing view would be as bright as glass. Inside a closed skin it sees them
  * through the other wall.
  */
-#define LATEX                                                                                         \
-    "centroid in vec3 skin_normal, skin_to_eye, skin_depth, skin_outside, skin_inside;\n"             \
-    "centroid in float skin_roughness;\n"                                                             \
-    "centroid in float skin_closed;\n" STUDIO BOXES "void shade(out vec3 added, out vec3 passes)\n"   \
-    "{\n" FACING "    float rough = min(0.886 * skin_roughness, 1.0);\n"                              \
-    "    float turned = sqrt(mix(facing * facing, 1.0, rough * rough));\n"                            \
-    "    float inner = sqrt(1.0 - (1.0 - turned * turned) / 2.3104);\n"                               \
-    "    float across = (turned - 1.52 * inner) / (turned + 1.52 * inner);\n"                         \
-    "    float along = (inner - 1.52 * turned) / (inner + 1.52 * turned);\n"                          \
-    "    float fresnel = 0.5 * (across * across + along * along);\n"                                  \
-    "    float enters = 1.0 - fresnel;\n"                                                             \
-    "    vec3 t = exp(-skin_depth / inner);\n"                                                        \
-    "    passes = enters * enters * t / (1.0 - fresnel * fresnel * t * t);\n"                         \
-    "    vec3 mirror = fresnel * (1.0 + passes * t);\n"                                               \
-    "    vec3 ray = reflect(-to_eye, n);\n"                                                           \
-    "    float blur = 1.2 * skin_roughness + 0.02;\n"                                                 \
-    "    float seen = 11.0 * box(ray, key, key_across, key_along, vec2(0.40, 0.58), blur) +\n"        \
-    "                 11.5 * box(ray, strip, strip_across, strip_along, vec2(0.14, 0.75), blur) +\n"  \
-    "                 mix(0.25, 0.75, 0.5 + 0.5 * ray.y) * smoothstep(-0.9, 0.4, ray.z);\n"           \
-    "    vec3 window = gl_FrontFacing ? vec3(1.0) : mix(vec3(1.0), exp(-skin_depth), skin_closed);\n" \
-    "    vec3 body = gl_FrontFacing ? skin_outside : skin_inside;\n"                                  \
-    "    added = enters * body + mirror * window * seen;\n"                                           \
+#define LATEX                                                                                                \
+    "centroid in vec3 skin_normal, skin_to_eye, skin_depth, skin_outside, skin_inside;\n"                    \
+    "centroid in float skin_roughness;\n"                                                                    \
+    "centroid in float skin_closed;\n" STUDIO BOXES ENCLOSED "void shade(out vec3 added, out vec3 passes)\n" \
+    "{\n" FACING "    float rough = min(0.886 * skin_roughness, 1.0);\n"                                     \
+    "    float turned = sqrt(mix(facing * facing, 1.0, rough * rough));\n"                                   \
+    "    float inner = sqrt(1.0 - (1.0 - turned * turned) / 2.3104);\n"                                      \
+    "    float across = (turned - 1.52 * inner) / (turned + 1.52 * inner);\n"                                \
+    "    float along = (inner - 1.52 * turned) / (inner + 1.52 * turned);\n"                                 \
+    "    float fresnel = 0.5 * (across * across + along * along);\n"                                         \
+    "    float enters = 1.0 - fresnel;\n"                                                                    \
+    "    vec3 t = exp(-skin_depth / inner);\n"                                                               \
+    "    passes = enters * enters * t / (1.0 - fresnel * fresnel * t * t);\n"                                \
+    "    vec3 mirror = fresnel * (1.0 + passes * t);\n"                                                      \
+    "    vec3 ray = reflect(-to_eye, n);\n"                                                                  \
+    "    float blur = 1.2 * skin_roughness + 0.02;\n"                                                        \
+    "    float seen = 11.0 * box(ray, key, key_across, key_along, vec2(0.40, 0.58), blur) +\n"               \
+    "                 11.5 * box(ray, strip, strip_across, strip_along, vec2(0.14, 0.75), blur) +\n"         \
+    "                 mix(0.25, 0.75, 0.5 + 0.5 * ray.y) * smoothstep(-0.9, 0.4, ray.z);\n"                  \
+    "    vec3 window = exp(-skin_depth);\n"                                                                  \
+    "    window = gl_FrontFacing ? vec3(1.0) : mix(vec3(1.0), window, skin_closed * enclosed(window));\n"    \
+    "    vec3 body = gl_FrontFacing ? skin_outside : skin_inside;\n"                                         \
+    "    added = enters * body + mirror * window * seen;\n"                                                  \
     "}\n"
 
 /* Light to add, and the share of what lies behind to keep. */

@@ -3,6 +3,33 @@
 #include "render/overlay.h"
 #include "sphere.h"
 
+/* Its inside, which no light can reach within, was black there. Seen from outside it is as bright as the
+ * outside was, by a fifth: light falls on it the same. */
+static void thick_latex_that_is_inside_out_is_lit(void **state)
+{
+    (void)state;
+    struct mesh mesh = sphere_new(40, 40);
+    struct render_skin skin = {
+        .mesh = &mesh, .rest_opacity = 0.999f, .rest_shininess = 0, .colour = {0.01f, 0.3f, 0.05f}};
+    struct render_view view = square_view();
+    view.style = RENDER_LATEX;
+    struct image outside = drawn(&view, &skin, 1);
+    for (uint32_t t = 0; t < mesh.triangle_count; t++) {
+        const uint32_t second = mesh.triangle[t][1];
+        mesh.triangle[t][1] = mesh.triangle[t][2];
+        mesh.triangle[t][2] = second;
+    }
+    for (uint32_t p = 0; p < mesh.point_count; p++)
+        for (int i = 0; i < 3; i++)
+            mesh.normal[p][i] = -mesh.normal[p][i];
+    struct image inside = drawn(&view, &skin, 1);
+    const double wanted = linear(pixel(&outside, 100, 100)[1]);
+    assert_near(linear(pixel(&inside, 100, 100)[1]), wanted, 0.2 * wanted);
+    image_clear(&outside);
+    image_clear(&inside);
+    sphere_free(&mesh);
+}
+
 /* White skin is not paled further, and straight on its path is its thickness. Three values rounded to 1/255
  * of sRGB, whose slope is at most 2.4 / 1.055: 1.5 x 0.5 / 255 x 2.3. */
 static void opacity_one_half_blends_half_of_what_lies_behind(void **state)
@@ -313,6 +340,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(opacity_one_half_blends_half_of_what_lies_behind),
+        cmocka_unit_test(thick_latex_that_is_inside_out_is_lit),
         cmocka_unit_test(smooth_edges_change_outlines_only),
         cmocka_unit_test(both_sides_of_a_skin_are_lit_alike),
         cmocka_unit_test(what_is_opaque_passes_no_light_from_behind),
