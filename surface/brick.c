@@ -21,17 +21,16 @@ uint64_t brick_code(const struct grid *grid, const int at[3])
     return spread(x) | spread(y) << 1 | spread((uint64_t)(at[2] - grid->brick_low[2])) << 2;
 }
 
-/* Whether all corners are on one side of the threshold, since the field differs from that in the middle by at
- * most its steepness times the half diagonal. */
+/* Whether all corners are on one side of the threshold, by the field in the middle. */
 static bool is_one_sided(const struct mesher *m, struct worker *worker)
 {
     static const int middle[3] = {BRICK / 2, BRICK / 2, BRICK / 2};
     double gradient[3];
-    double most = 1.000001 * m->field->steepness * sqrt(3) * BRICK / 2 * m->grid.cube;
-    if (most >= m->threshold)
+    const double radius = sqrt(3) * BRICK / 2 * m->grid.cube;
+    if (!sides_may_tell(&m->sides, radius))
         return false;
     worker->evaluations++;
-    return fabs(block_corner(&worker->block, middle, gradient) - m->threshold) > most;
+    return sides_tell(&m->sides, block_corner(&worker->block, middle, gradient), radius);
 }
 
 /* The signs of the values; false when they are all the same. */

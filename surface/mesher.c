@@ -26,7 +26,8 @@ static enum status open_workers(struct mesher *m, double cube, struct error *err
 enum status mesher_init(struct mesher *m, const struct field *field, double threshold, double cube,
                         struct threads *pool, struct error *err)
 {
-    *m = (struct mesher){.field = field, .threshold = threshold, .pool = pool};
+    *m = (struct mesher){
+        .field = field, .threshold = threshold, .sides = sides_of(field, threshold), .pool = pool};
     cell_table_make(&m->cells);
     enum status status = grid_init(&m->grid, field, cube, err);
     if (status == STATUS_OK)

@@ -25,6 +25,7 @@
 #include "surface/block.h"
 #include "surface/cell.h"
 #include "surface/probe.h"
+#include "surface/sides.h"
 
 struct vertex {
     double position[3]; /* in units of the first cube */
@@ -80,6 +81,7 @@ struct worker {
 struct mesher {
     const struct field *field; /* borrowed */
     double threshold;
+    struct sides sides;
     struct grid grid;
     struct cell_table cells;
     struct threads *pool;   /* borrowed */

@@ -9,13 +9,13 @@
 #include <string.h>
 
 /*
- * Proofs that a brick can be left out. Where it is small against sigma, the field's steepness serves (see
- * far_from_threshold). Otherwise, let all cells within `reach` of a box be of one material k (or all empty,
- * b_k = 0). Of a point of the box, let M be the sum of the one-dimensional Gaussians of the whole lattice,
- * between `least` and `most`, and at most `tail` what of it lies further than `reach` to either side. Then
- * the near cells contribute between b_k (least - tail)^3 and b_k most^3, and all others at most B 3 tail
- * most^2, B = max |b|; of area fields there are only others. If the threshold is not in between, the box is
- * on one side of it.
+ * Proofs that a brick can be left out. Where it is small against sigma, the field in its middle serves
+ * (sides.h). Otherwise, let all cells within `reach` of a box be of one material k (or all empty, b_k = 0).
+ * Of a point of the box, let M be the sum of the one-dimensional Gaussians of the whole lattice, between
+ * `least` and `most`, and at most `tail` what of it lies further than `reach` to either side. Then the near
+ * cells contribute between b_k (least - tail)^3 and b_k most^3, and all others at most B 3 tail most^2, B =
+ * max |b|; of area fields there are only others. If the threshold is not in between, the box is on one side
+ * of it.
  */
 struct bounds {
     double reach;                    /* in cells */
@@ -155,7 +155,7 @@ static bool in_one_material(const struct mesher *m, const struct bounds *bounds,
     return material >= 0 && bounds->excluded[material];
 }
 
-/* The field differs from that in the middle of a box by at most its steepness times the half diagonal. */
+/* Whether a box is on one side of the threshold, by the field in its middle. */
 static bool far_from_threshold(const struct mesher *m, struct worker *worker, const double low[3],
                                const double high[3])
 {
@@ -164,8 +164,9 @@ static bool far_from_threshold(const struct mesher *m, struct worker *worker, co
         half[axis] = (high[axis] - low[axis]) / 2;
         middle[axis] = low[axis] + half[axis];
     }
-    double most = 1.000001 * m->field->steepness * vec3_length(half);
-    return most < m->threshold && fabs(probe_value(&worker->probe, middle, gradient) - m->threshold) > most;
+    const double radius = vec3_length(half);
+    return sides_may_tell(&m->sides, radius) &&
+           sides_tell(&m->sides, probe_value(&worker->probe, middle, gradient), radius);
 }
 
 /* Whether all corners of the bricks low .. high are proven to be on one side. A single brick's middle is
