@@ -10,7 +10,7 @@
  *
  * A state is sim_blocks(), so that what follows a restored one is equal to the bit to what followed the first
  * time. Blocks that did not change since the frame before are held once. When memory runs out every second
- * frame is let go, the newest but one first in line to stay; the one that was added first is always kept.
+ * frame is let go, and the first and the newest are always kept.
  */
 #ifndef SIM_LIVE_PAST_H
 #define SIM_LIVE_PAST_H
