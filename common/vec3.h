@@ -27,6 +27,14 @@ static inline double vec3_length(const double a[3])
     return sqrt(vec3_dot(a, a));
 }
 
+/* To length 1; no direction stays none. */
+static inline void vec3_unit(double a[3])
+{
+    const double length = vec3_length(a);
+    for (int i = 0; i < 3; i++)
+        a[i] = length > 0 ? a[i] / length : 0;
+}
+
 static inline double vec3_square_distance(const double a[3], const double b[3])
 {
     double d[3];

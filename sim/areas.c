@@ -4,6 +4,7 @@
 #include "sim/guard.h"
 #include "sim/jacobian_kernels.h"
 #include "sim/kernels.h"
+#include "sim/measure.h"
 #include "sim/vectors.h"
 
 struct volume {
@@ -192,12 +193,7 @@ void areas_product(struct sim *sim, const struct sim_balloon *balloon, const str
 
 double areas_size(const struct sim *sim, uint32_t triangle)
 {
-    double(*x)[4] = sim->position, twice[3];
-    const uint32_t *p = sim->triangle_point[triangle];
-    if (!sim->triangle_active[triangle])
-        return 0;
-    vec3_triangle(x[p[0]], x[p[1]], x[p[2]], twice);
-    return vec3_length(twice) / 2;
+    return sim->triangle_active[triangle] ? sim_area(sim, triangle) : 0;
 }
 
 void areas_bound(const struct sim *sim, const struct sim_balloon *balloon, double pressure,

@@ -12,9 +12,7 @@ static struct contact_box box_of(const struct contact_ways *ways, uint32_t point
 /* A patch with a cut in it can cross itself there, whichever way it looks. */
 static bool is_cut(const struct sim *sim, uint32_t t)
 {
-    const struct sim_balloon *b = sim->balloons;
-    while (t >= b->triangle_end)
-        b++;
+    const struct sim_balloon *b = sim_balloon_of(sim, t);
     if (!b->topology || b->topology->now.rims == 0)
         return false;
     const uint32_t *neighbour = b->topology->neighbour[t - b->triangle_begin];

@@ -55,7 +55,7 @@ static void rest_normal(const struct sim *sim, const struct sim_balloon *b, cons
         for (int k = 0; k < 3; k++)
             normal[k] += twice[k];
     }
-    crack_unit(normal);
+    vec3_unit(normal);
 }
 
 /* The spokes into whole skin that are nearest to 34 degrees off the heading, to either side;
@@ -130,12 +130,10 @@ struct candidate {
 };
 
 /* What its triangles would release, over what it takes. */
-static double tip_strength(const struct sim *sim, const struct sim_balloon *b, const struct crack_tip *tip,
-                           const struct ring *ring)
+static double tip_strength(const struct sim_balloon *b, const struct ring *ring)
 {
     const struct fracture *f = b->fracture;
     double energy = 0, area = 0, noise = 0;
-    (void)sim, (void)tip;
     for (int i = 0; i < ring->count; i++) {
         const uint32_t t = ring->fan[i].triangle - b->triangle_begin;
         energy += ring->state[i].energy * b->topology->rest_area[t];
@@ -144,7 +142,7 @@ static double tip_strength(const struct sim *sim, const struct sim_balloon *b, c
     }
     if (!(area > 0))
         return 0;
-    return energy / area * sqrt(area / 3.141592653589793) /
+    return energy / area * sqrt(area / M_PI) /
            (b->scene->fracture.toughness * f->radius * (1 + b->scene->fracture.weakness * noise));
 }
 
@@ -210,7 +208,7 @@ void fracture_tips(struct sim *sim, struct sim_balloon *b)
         struct ring ring;
         if (!tip->alive || sim->time < tip->ready || !crack_take_ring(sim, b, tip->point, &ring))
             continue;
-        const double strength = tip_strength(sim, b, tip, &ring);
+        const double strength = tip_strength(b, &ring);
         if (!(strength >= 1))
             continue;
         uint32_t at = count++;

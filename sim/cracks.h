@@ -8,7 +8,6 @@
 #ifndef SIM_CRACKS_H
 #define SIM_CRACKS_H
 
-#include "common/vec3.h"
 #include "sim/fracture.h"
 
 struct ring {
@@ -24,14 +23,6 @@ bool crack_take_ring(struct sim *sim, const struct sim_balloon *balloon, uint32_
 /* The point at a spoke's far end; the mean nominal stress across it, over the shear modulus. */
 uint32_t crack_spoke_end(const struct sim *sim, const struct ring *ring, int spoke);
 double crack_spoke_stress(const struct sim *sim, const struct ring *ring, uint32_t point, int spoke);
-
-/* To length 1; no direction stays none. */
-static inline void crack_unit(double v[3])
-{
-    const double length = vec3_length(v);
-    for (int i = 0; i < 3; i++)
-        v[i] = length > 0 ? v[i] / length : 0;
-}
 
 /* Where a point is at rest; the unit vector from one to another there, and their distance. */
 double *crack_rest(const struct sim_balloon *balloon, uint32_t point);

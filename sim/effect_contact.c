@@ -165,12 +165,9 @@ static void cross_leaves(void *context, unsigned worker, uint32_t a, uint32_t b)
                 cross(crossings, of_a[i], of_b[j]);
 }
 
-static size_t balloon_of(const struct sim *sim, uint32_t triangle)
+static size_t number_of_balloon(const struct sim *sim, uint32_t triangle)
 {
-    size_t b = 0;
-    while (triangle >= sim->balloons[b].triangle_end)
-        b++;
-    return b;
+    return (size_t)(sim_balloon_of(sim, triangle) - sim->balloons);
 }
 
 /* Contact keeps apart what is apart; what crosses at first would hang together for ever. */
@@ -191,7 +188,8 @@ static enum status check_apart(struct sim *sim, struct error *err)
         err, STATUS_INPUT,
         "%s%s: contact: the skins of balloons[%zu] and balloons[%zu] cross before the first step, near (%g, %g, "
         "%g); move them apart",
-        sim->scene->path, line, balloon_of(sim, crossings.t), balloon_of(sim, crossings.u), x[0], x[1], x[2]);
+        sim->scene->path, line, number_of_balloon(sim, crossings.t), number_of_balloon(sim, crossings.u),
+        x[0], x[1], x[2]);
 }
 
 static enum status open(struct sim *sim, struct sim_balloon *balloon, struct error *err)

@@ -22,13 +22,6 @@ static double mean_stretch(const struct sim *sim, const struct sim_balloon *ball
     return rest > 0 ? length / rest : 0;
 }
 
-static void normalize(double v[3])
-{
-    double length = vec3_length(v);
-    for (int i = 0; i < 3; i++)
-        v[i] /= length;
-}
-
 /* The mean of the balloon's points: where the cut is centred. */
 static void centre_now(const struct sim *sim, const struct sim_balloon *balloon, double centre[3])
 {
@@ -51,9 +44,9 @@ static uint32_t cut(struct sim *sim, const struct sim_balloon *balloon)
     centre_now(sim, balloon, centre);
     for (int i = 0; i < 3; i++)
         place[i] = rip->place[i];
-    normalize(place);
+    vec3_unit(place);
     vec3_cross(place, rip->direction, across);
-    normalize(across);
+    vec3_unit(across);
     vec3_cross(across, place, along);
     for (uint32_t e = balloon->edge_begin; e < balloon->edge_end; e++) {
         double a[3], b[3], middle[3];

@@ -43,7 +43,7 @@ static void look_at_line(const struct sim *sim, const struct sim_balloon *b, con
         }
     }
     *s = (struct membrane_state){.stretch = {stretch, stretch}};
-    crack_unit(side);
+    vec3_unit(side);
     memcpy(s->direction, side, sizeof side);
     if (stretch <= 1)
         return;
@@ -293,9 +293,7 @@ void fracture_restored(struct sim *sim, struct sim_balloon *b)
 
 void sim_prick(struct sim *sim, uint32_t triangle, const double place[3])
 {
-    struct sim_balloon *b = sim->balloons;
-    while (triangle >= b->triangle_end)
-        b++;
+    struct sim_balloon *b = sim_balloon_of(sim, triangle);
     if (b->fracture) {
         fracture_prick(sim, b, place);
         return;

@@ -2,6 +2,7 @@
 #include "common/mesh.h"
 #include "common/vec3.h"
 #include "sim/gas.h"
+#include "sim/measure.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -174,14 +175,8 @@ double gas_torn_volume_before(const struct sim *sim, const struct sim_balloon *b
 double gas_torn_missing(const struct sim *sim, const struct sim_balloon *b)
 {
     double area = 0;
-    for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++) {
-        const uint32_t *p = sim->triangle_point[t];
-        double twice[3];
-        if (sim->triangle_active[t])
-            continue;
-        vec3_triangle(sim->position[p[0]], sim->position[p[1]], sim->position[p[2]], twice);
-        area += vec3_length(twice) / 2;
-    }
+    for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++)
+        area += sim->triangle_active[t] ? 0 : sim_area(sim, t);
     return area;
 }
 

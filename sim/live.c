@@ -218,10 +218,7 @@ void live_prick(struct live *live, const struct hand_hit *hit)
 {
     struct sim *sim = live->sim;
     go_on_from_here(live);
-    const struct sim_balloon *b = sim->balloons;
-    while (hit->triangle >= b->triangle_end)
-        b++;
     sim_prick(sim, hit->triangle, hit->place);
-    if (!b->fracture)
+    if (!sim_balloon_of(sim, hit->triangle)->fracture)
         sim_drop_triangle(sim, hit->triangle); /* also while nothing steps */
 }

@@ -136,14 +136,6 @@ void hand_close(struct hand *hand, struct sim *sim)
     *hand = (struct hand){0};
 }
 
-static struct sim_balloon *balloon_of(const struct sim *sim, uint32_t triangle)
-{
-    struct sim_balloon *b = sim->balloons;
-    while (triangle >= b->triangle_end)
-        b++;
-    return b;
-}
-
 /* What a stretch along one line is resisted with, force/length, so that a hand is as strong as the skin. */
 static double skin_stiffness(const struct scene_balloon *balloon)
 {
@@ -174,7 +166,7 @@ static void add_finger(struct hand *hand, const struct sim *sim, const struct si
 void hand_take(struct hand *hand, struct sim *sim, const struct hand_hit *hit)
 {
     hand_let_go(hand, sim);
-    struct sim_balloon *balloon = balloon_of(sim, hit->triangle);
+    struct sim_balloon *balloon = sim_balloon_of(sim, hit->triangle);
     for (uint32_t p = balloon->point_begin; p < balloon->point_end; p++)
         add_finger(hand, sim, balloon, hit, p);
     memcpy(hand->from, hit->place, sizeof hand->from);

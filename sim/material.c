@@ -4,14 +4,6 @@
 
 #include <math.h>
 
-static const struct sim_balloon *balloon_of(const struct sim *sim, uint32_t triangle)
-{
-    const struct sim_balloon *b = sim->balloons;
-    while (triangle >= b->triangle_end)
-        b++;
-    return b;
-}
-
 /* A triangle's stretch L is the mean length of its three edges over their mean rest length. Rubber
  * keeps its volume, so the film thins as 1/L^2, and by the law of Beer and Lambert its transmittance
  * 1 - opacity becomes the rest's to the power 1/L^2. The highlight's exponent grows as L^4: the
@@ -19,7 +11,7 @@ static const struct sim_balloon *balloon_of(const struct sim *sim, uint32_t tria
 void sim_material(const struct sim *sim, float *opacity, float *shininess)
 {
     for (uint32_t t = 0; t < sim->triangle_count; t++) {
-        const struct scene_balloon *skin = balloon_of(sim, t)->scene;
+        const struct scene_balloon *skin = sim_balloon_of(sim, t)->scene;
         double length = 0, rest = 0;
         for (int k = 0; k < 3; k++) {
             length += sim_edge_length(sim, sim->triangle_edge[t][k]);

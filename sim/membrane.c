@@ -40,9 +40,7 @@ static void find_direction(double f[2][3], const double c[3], double out[3])
     const double angle = atan2(2 * c[1], c[0] - c[2]) / 2, x = cos(angle), y = sin(angle);
     for (int i = 0; i < 3; i++)
         out[i] = x * f[0][i] + y * f[1][i];
-    const double length = vec3_length(out);
-    for (int i = 0; i < 3; i++)
-        out[i] = length > 0 ? out[i] / length : 0;
+    vec3_unit(out);
 }
 
 void membrane_look(const struct sim *sim, const struct sim_balloon *balloon, uint32_t triangle,

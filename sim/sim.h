@@ -280,6 +280,15 @@ void sim_forces(struct sim *sim);
  * first step, or by an effect's hook as the sim is opened. Error: STATUS_NO_MEMORY. */
 enum status sim_add_scalars(struct sim *sim, uint32_t count, uint32_t *first, struct error *err);
 
+/* The balloon that a triangle is of. */
+static inline struct sim_balloon *sim_balloon_of(const struct sim *sim, uint32_t triangle)
+{
+    struct sim_balloon *b = sim->balloons;
+    while (triangle >= b->triangle_end)
+        b++;
+    return b;
+}
+
 /* Zeroed memory on a line of the cache, free()d by whoever asked, which adds to sim->bytes.
  * NULL: there is not enough. */
 void *sim_table(struct sim *sim, size_t count, size_t size);

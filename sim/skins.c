@@ -104,11 +104,8 @@ static void find_normals(struct skins *skins)
     for (uint32_t t = 0; t < sim->triangle_count; t++)
         if (sim->triangle_active[t])
             add_normal(skins, t);
-    for (uint32_t p = 0; p < sim->point_count; p++) {
-        const double length = vec3_length(skins->normal[p]);
-        for (int i = 0; i < 3; i++)
-            skins->normal[p][i] = length > 0 ? skins->normal[p][i] / length : 0;
-    }
+    for (uint32_t p = 0; p < sim->point_count; p++)
+        vec3_unit(skins->normal[p]);
 }
 
 void skins_update(struct skins *skins)

@@ -52,7 +52,7 @@ double crack_rest_direction(const struct sim_balloon *b, uint32_t from, uint32_t
 {
     vec3_sub(crack_rest(b, to), crack_rest(b, from), direction);
     const double length = vec3_length(direction);
-    crack_unit(direction);
+    vec3_unit(direction);
     return length;
 }
 
@@ -67,7 +67,7 @@ double crack_spoke_stress(const struct sim *sim, const struct ring *ring, uint32
 {
     double d[3];
     vec3_sub(sim->position[crack_spoke_end(sim, ring, spoke)], sim->position[point], d);
-    crack_unit(d);
+    vec3_unit(d);
     const int before = (spoke + ring->count - 1) % ring->count;
     return (stress_across(&ring->state[before], d) + stress_across(&ring->state[spoke % ring->count], d)) / 2;
 }
@@ -231,7 +231,7 @@ uint32_t fracture_slit(struct sim *sim, struct sim_balloon *b, uint32_t point, c
     double forth[3], back[3];
     for (int i = 0; i < 3; i++)
         forth[i] = direction[i];
-    crack_unit(forth);
+    vec3_unit(forth);
     for (int i = 0; i < 3; i++)
         back[i] = -forth[i];
     const uint32_t cuts = slit_one_way(sim, b, point, forth, half_length);

@@ -1,6 +1,7 @@
 #include "common/vec3.h"
 #include "sim/effect_gas.h"
 #include "sim/guard.h"
+#include "sim/measure.h"
 #include "sim/membrane.h"
 #include "sim/pins.h"
 #include "sim/reorder.h"
@@ -87,12 +88,9 @@ static void measure_rest(const struct sim *sim, const struct sim_balloon *b)
         top->family[p] = p < b->point_end - b->point_begin ? p : 0;
     }
     for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++) {
-        const uint32_t *p = sim->triangle_point[t];
-        double twice[3];
-        vec3_triangle(sim->position[p[0]], sim->position[p[1]], sim->position[p[2]], twice);
-        top->area += top->rest_area[t - b->triangle_begin] = vec3_length(twice) / 2;
+        top->area += top->rest_area[t - b->triangle_begin] = sim_area(sim, t);
         for (int k = 0; k < 3; k++)
-            top->triangle_at[p[k] - b->point_begin] = t;
+            top->triangle_at[sim->triangle_point[t][k] - b->point_begin] = t;
     }
 }
 
