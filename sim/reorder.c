@@ -135,6 +135,12 @@ static void go_to_sleep(struct sim *sim, struct sim_balloon *b)
     sim_tell(sim, b, "reordering", "sleeps: all points are in their places");
 }
 
+/* What a step with the points as they are loses. */
+static uint64_t loss_of(const struct topology *top)
+{
+    return top->now.late_triangles + top->slow;
+}
+
 void reorder_step(struct sim *sim)
 {
     for (struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++) {
@@ -144,14 +150,20 @@ void reorder_step(struct sim *sim)
         if (now->awake == REORDER_STIRS)
             sim_tell(sim, b, "reordering", "wakes: new points wait for their places");
         now->awake = REORDER_AWAKE;
-        now->slowed += now->late_triangles + b->topology->slow;
         const uint64_t price = (uint64_t)PRICE * (b->triangle_end - b->triangle_begin);
         const bool rested = has_rested(sim, b);
-        if (now->settled < now->points && (rested || now->slowed >= price))
+        if (now->settled < now->points && (rested || now->slowed + loss_of(b->topology) >= price))
             put_in_order(sim, b);
         if (rested)
             go_to_sleep(sim, b);
     }
+}
+
+void reorder_moved(struct sim *sim)
+{
+    for (struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
+        if (b->topology && b->topology->now.awake != REORDER_SLEEPS)
+            b->topology->now.slowed += loss_of(b->topology);
 }
 
 void reorder_restored(struct sim *sim, struct sim_balloon *b)

@@ -2,6 +2,7 @@
  * Putting the points in order that cuts have made.
  *
  *     reorder_step(sim)                         before each step; asleep while nothing is torn
+ *     reorder_moved(sim)                        once it has moved the points: who ends it before that begins it anew
  *
  * A cut appends its points behind all others, where a part of its own works on them (topology.h): a
  * triangle that has one is worked out twice, and it and what follows it in its chunk one by one, where
@@ -39,6 +40,7 @@ void reorder_points(const struct reorder *reorder, uint32_t *points, size_t coun
 void reorder_rows(const struct reorder *reorder, void *rows, size_t size);
 
 void reorder_step(struct sim *sim);
+void reorder_moved(struct sim *sim);
 
 /* A cut was made: wakes it. */
 void reorder_wake(const struct sim *sim, struct sim_balloon *balloon);

@@ -211,6 +211,7 @@ enum status sim_step(struct sim *sim, struct error *err)
     status = advance(sim, err);                       /* 1  positions, velocities                    */
     if (status)
         return status;
+    reorder_moved(sim);
     status = effects_settle(sim, err); /* what stands in the way */
     if (status)
         return status;

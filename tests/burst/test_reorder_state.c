@@ -108,6 +108,35 @@ static void a_burst_is_taken_up_in_its_middle(void **unused)
     deflate(&it);
 }
 
+static bool no(const struct sim *sim)
+{
+    (void)sim;
+    return false;
+}
+
+/* A step that was ended half-way has cost nothing as yet: it was counted twice. */
+static void who_ends_a_step_and_goes_on_comes_to_the_same_bits(void **unused)
+{
+    (void)unused;
+    static const struct inflation chosen = {
+        .level = 2, .stretch = 1.5, .keys = {"time.integrator=auto", "time.tolerance=1e-3"}};
+    struct error err = {0};
+    struct inflated it, whole;
+    inflate(&it, &chosen);
+    inflate(&whole, &chosen);
+    tear(&it, 11, 20);
+    tear(&whole, 11, 20);
+    it.sim.goes_on = no;
+    assert_refused(sim_step(&it.sim, &err), STATUS_INTERRUPTED, "interrupted", &err);
+    it.sim.goes_on = NULL;
+    steps(&it, 1);
+    steps(&whole, 1);
+    assert_true(whole.balloon->topology->now.slowed > 0);
+    assert_true(sim_hash(&it.sim) == sim_hash(&whole.sim));
+    deflate(&it);
+    deflate(&whole);
+}
+
 static void names_that_are_none_are_refused(void **unused)
 {
     (void)unused;
@@ -145,6 +174,7 @@ int main(void)
         cmocka_unit_test(any_number_of_workers_gives_the_same_bits),
         cmocka_unit_test(states_are_put_back_across_it_in_any_order),
         cmocka_unit_test(a_burst_is_taken_up_in_its_middle),
+        cmocka_unit_test(who_ends_a_step_and_goes_on_comes_to_the_same_bits),
         cmocka_unit_test(names_that_are_none_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
