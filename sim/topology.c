@@ -307,6 +307,8 @@ static uint32_t double_edge(struct sim *sim, struct sim_balloon *b, uint32_t edg
     sim->rest_length[copy] = sim->rest_length[edge];
     sim->broken_length[copy] = sim->broken_length[edge];
     sim->edge_active[copy] = sim->edge_active[edge];
+    if (sim->past.edge_active) /* a look back finds the places as they were, and the skin as it is cut */
+        sim->past.edge_active[copy] = sim->past.edge_active[edge];
     parts_extend(b->topology->tail, b->point_end, b->edge_end);
     parts_new_edge(sim, b, copy);
     return copy;

@@ -116,6 +116,31 @@ static void what_is_next_to_a_line_tears_no_sooner(void **unused)
     }
 }
 
+/* Edges that a cut has made at a step's end hold their half in the log of a moment within it, too. */
+static void a_look_at_a_step_that_ends_in_cuts_finds_all_that_skin_holds(void **unused)
+{
+    (void)unused;
+    struct inflated it;
+    inflate(&it, &(struct inflation){.level = 3,
+                                     .stretch = 2.2,
+                                     .springs = true,
+                                     .keys = {"time.integrator=rk-adaptive", "balloons[0].pressure=0"}});
+    prick(&it);
+    for (int cuts = 0; cuts < 10;) {
+        struct error err = {0};
+        const uint32_t before = it.balloon->topology->now.edges;
+        assert_ok(sim_step(&it.sim, &err), &err);
+        if (it.balloon->topology->now.edges == before)
+            continue;
+        const double held = sim_measure(&it.sim).elastic_energy;
+        sim_look(&it.sim, it.sim.time - 1e-9 * it.sim.taken);
+        assert_near(sim_measure(&it.sim).elastic_energy, held, 1e-6 * held);
+        sim_look_end(&it.sim);
+        cuts++;
+    }
+    deflate(&it);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -123,6 +148,7 @@ int main(void)
         cmocka_unit_test(springs_that_are_turned_tear_as_those_said_outright),
         cmocka_unit_test(springs_of_nothing_tear_once_they_are_turned_on),
         cmocka_unit_test(what_is_next_to_a_line_tears_no_sooner),
+        cmocka_unit_test(a_look_at_a_step_that_ends_in_cuts_finds_all_that_skin_holds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
