@@ -144,6 +144,7 @@ enum status estimate_compare(struct estimate *e, const struct sim *sim, double *
     enum status status = STATUS_OK;
     *error = NAN;
     for (int i = 0; i < COMPANIONS && !e->over && !status; i++) {
+        c[i].sim.goes_on = sim->goes_on;
         status = catch_up(&c[i], sim->time, err);
         e->over = sim->broken || c[i].sim.broken;
     }

@@ -25,7 +25,7 @@ enum status estimate_open(const struct sim *sim, const struct mesh *meshes, unsi
                           struct estimate **estimate, struct error *err);
 
 /* Lets the companions catch up with sim->time. *error becomes the run's error there, in mean radii at rest;
- * NAN once something broke. Errors: those of sim_step(), of a companion. */
+ * NAN once something broke. Errors: those of sim_step(), of a companion; it asks sim->goes_on. */
 enum status estimate_compare(struct estimate *estimate, const struct sim *sim, double *error,
                              struct error *err);
 

@@ -2,6 +2,7 @@
  * and the same everywhere. */
 #include "hard.h"
 #include "sim/auto.h"
+#include "sim/estimate.h"
 #include "sim/integrators.h"
 #include "sim/topology.h"
 
@@ -179,6 +180,24 @@ static void a_choice_that_is_ended_half_way_has_not_begun(void **state)
     close_balloon(&whole);
 }
 
+/* Their trials take longer than the run's, since their tolerances are tighter. */
+static void companions_of_an_estimate_can_be_ended_too(void **state)
+{
+    (void)state;
+    struct balloon b;
+    struct estimate *estimate;
+    struct error err = {0};
+    double error;
+    open_auto(&b, "time.tolerance=1e-3");
+    assert_ok(estimate_open(&b.sim, &b.mesh, 1, &estimate, &err), &err);
+    steps(&b, 1);
+    answers = 2;
+    b.sim.goes_on = goes_on_for_a_while;
+    assert_refused(estimate_compare(estimate, &b.sim, &error, &err), STATUS_INTERRUPTED, "interrupted", &err);
+    estimate_close(estimate);
+    close_balloon(&b);
+}
+
 /* With damping a step of rkn4 takes 28 forces: that it is no candidate is known without a trial, which would
  * take 84 at the least, as much as those of all others. */
 static void a_choice_takes_no_more_than_a_few_steps(void **state)
@@ -291,6 +310,7 @@ int main(void)
         cmocka_unit_test(the_choice_is_the_same_for_any_number_of_threads),
         cmocka_unit_test(who_is_asked_in_a_trial_is_told_so),
         cmocka_unit_test(a_choice_that_is_ended_half_way_has_not_begun),
+        cmocka_unit_test(companions_of_an_estimate_can_be_ended_too),
         cmocka_unit_test(a_choice_takes_no_more_than_a_few_steps),
         cmocka_unit_test(trials_leave_no_trace),
         cmocka_unit_test(a_trial_ends_where_the_guard_would),
