@@ -37,7 +37,8 @@ static enum status begin(struct app *app, struct error *err)
 {
     struct frames_options options = {.rate = app->live.sim->scene->view.playback};
     struct error no_movie = {0};
-    const bool movie = !movie_check("a.mp4", &no_movie); /* else its pictures, in a folder */
+    /* else its pictures, in a folder */
+    const bool movie = movie_check("a.mp4", &no_movie) != STATUS_RESOURCE;
     if (!find_name(app, movie ? ".mp4" : "", app->recording, sizeof app->recording))
         return error_set(err, STATUS_FILE, "%s is there: this folder holds enough films", app->recording);
     if (movie)
