@@ -29,27 +29,29 @@ char *frame_eye_file(const char *path, const char *eye)
 }
 
 /* True for a name that frame_file() gives; its number. */
-static bool is_frame(const char *name, unsigned long long *number)
+static bool is_frame(const char *name, size_t *number)
 {
-    char *end;
-    if (strncmp(name, "frame_", 6) || strspn(name + 6, "0123456789") < 4)
+    if (strncmp(name, "frame_", 6) || name[6] < '0' || name[6] > '9')
         return false;
-    *number = strtoull(name + 6, &end, 10);
-    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
-        if (!strcmp(end, endings[i]))
+    *number = strtoull(name + 6, NULL, 10);
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        char again[64];
+        snprintf(again, sizeof again, "frame_%04zu%s", *number, endings[i]);
+        if (!strcmp(name, again))
             return true;
+    }
     return false;
 }
 
 bool frame_file_is_name(const char *name)
 {
-    return is_frame(name, &(unsigned long long){0});
+    return is_frame(name, &(size_t){0});
 }
 
 static enum status remove_from(DIR *open, const char *folder, size_t first, size_t *removed,
                                struct error *err)
 {
-    unsigned long long number;
+    size_t number;
     struct stat info;
     for (struct dirent *entry; (entry = readdir(open));) {
         if (!is_frame(entry->d_name, &number) || number < first ||

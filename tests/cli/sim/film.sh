@@ -35,10 +35,12 @@ for eye in left right; do
 done
 
 # What a longer run has left goes, and only that; on from a checkpoint the frames before it stay.
-touch both/frame_0003.png.bak both/frame_12.png both/notes.txt
+others="both/frame_00003.png both/frame_99999999999999999999.png" # which no run writes
+touch both/frame_0003.png.bak both/frame_12.png both/notes.txt $others
 expect 0 balloon-sim m.ply $short --set time.end=0.2 --frames both --checkpoint run.ck
 stderr_has 'both: 22 frames of an earlier run removed'
 one_message
+rm $others || fail "what is no frame of ours is removed"
 [ "$(echo both/*)" = "both/frame_0000.png both/frame_0001.png both/frame_0002.png both/frame_0003.png both/frame_0003.png.bak both/frame_0004.png both/frame_12.png both/notes.txt" ] ||
     fail "the folder holds $(echo both/*)"
 expect 0 balloon-sim m.ply $short --frames both --resume run.ck
