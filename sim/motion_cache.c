@@ -63,11 +63,12 @@ void motion_cache_add(struct motion_cache *cache)
 /* The larger file first: where it finds no room the mesh stays that of the older one. */
 enum status motion_cache_close(struct motion_cache *cache, struct error *err)
 {
-    if (!cache)
-        return STATUS_OK;
-    enum status status = point_cache_close(cache->points, err);
-    cache->points = NULL;
-    if (!status && cache->begun) {
+    enum status status = STATUS_OK;
+    if (cache && cache->begun) {
+        status = point_cache_close(cache->points, err);
+        cache->points = NULL;
+    }
+    if (cache && cache->begun && !status) {
         status = file_out_commit(cache->mesh, err);
         cache->mesh = NULL;
     }

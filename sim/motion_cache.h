@@ -19,7 +19,8 @@ enum status motion_cache_open(struct sim *sim, const char *path, uint64_t first,
 /* Adds the state as it is. What fails is told by close. */
 void motion_cache_add(struct motion_cache *cache);
 
-/* Ends it; frees the cache, whatever it returns. NULL is fine. Errors: STATUS_FILE. */
+/* Ends it; without a sample the older files stay. Frees the cache, whatever it returns. NULL is fine. Errors:
+ * STATUS_FILE. */
 enum status motion_cache_close(struct motion_cache *cache, struct error *err);
 void motion_cache_abandon(struct motion_cache *cache); /* the older file stays; NULL is fine */
 

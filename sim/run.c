@@ -228,6 +228,16 @@ static enum status save_pieces(struct sim *sim, const char *path, struct error *
     return status;
 }
 
+/* Says why there is no film and no mesh: gone on with was what is at its end. */
+static void note_none(const struct run *run)
+{
+    const struct outputs *outputs = &run->outputs;
+    if (run->options->resume && outputs->shown == run->past.shown && !outputs->turntable_frames &&
+        (outputs->film || outputs->series || outputs->cache))
+        command_note("%s is of the end, %g s: nothing more is drawn, and no film or mesh is written",
+                     run->options->resume, run->sim->time);
+}
+
 /* How far the point is from the nearest one of all skin. */
 static double distance_of_skin(const struct sim *sim, const double place[3])
 {
@@ -315,6 +325,8 @@ enum status run(const struct options *options, struct sim *sim, struct estimate 
         status = step_to_end(&run, err);
     if (!status)
         status = outputs_finish(&run.outputs, err);
+    if (!status)
+        note_none(&run);
     note_removed(&run);
     status = outputs_close(&run.outputs, status, err);
     const size_t removed = run.outputs.removed;

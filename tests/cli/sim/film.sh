@@ -46,6 +46,16 @@ rm $others || fail "what is no frame of ours is removed"
 expect 0 balloon-sim m.ply $short --frames both --resume run.ck
 [ ! -s .stderr ] || fail "something was removed"
 same_file still/frame_0010.png both/frame_0010.png
+# A run that is over has nothing more to draw, and says so; what a cache of an earlier one holds stays.
+echo old >run.pc2
+expect 0 balloon-sim m.ply $short --set time.end=0.2 --resume run.ck --movie none.mp4 --contact-sheet none.png --point-cache run.pc2
+stderr_has '^balloon-sim: run\.ck is of the end, 0\.2 s: nothing more is drawn, and no film or mesh is written$'
+one_message
+[ "$(cat run.pc2)" = old ] || fail "a cache without a sample took the place of another"
+no_file none.mp4
+no_file none.png
+expect 0 balloon-sim m.ply $short --set time.end=0.2 --resume run.ck --contact-sheet round.png --turntable=4
+[ ! -s .stderr ] || fail "something is told of a film that is there"
 # A run that does not begin touches nothing.
 refused 1 'mono' balloon-sim m.ply --set view.stereo=none --frames both
 refused 1 'osmesa' env BALLOON_CONTEXT=none balloon-sim m.ply $short --frames both
