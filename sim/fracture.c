@@ -375,8 +375,6 @@ void fracture_step(struct sim *sim, struct sim_balloon *b)
     if (now == cuts)
         return;
     fracture_tell_gas(sim, b);
-    if (cuts == 0)
-        sim_tell(sim, b, "fracture", "the skin tears");
     /* The number has a digit more: the bound on the step is looked at again, a dozen times in all. */
     if ((now ^ cuts) > cuts)
         guard_bound_outdated(sim);

@@ -132,6 +132,8 @@ static void cut_spoke(struct sim *sim, struct sim_balloon *b, const struct ring 
     const bool joins = fracture_is_rim(sim, b, point) && fracture_is_rim(sim, b, end);
     const uint32_t other = b->topology->neighbour[f.triangle - b->triangle_begin][side];
     const uint32_t falls = joins ? fracture_falls_off(sim, b, f.triangle, side) : 0;
+    if (b->topology->now.edges == 0)
+        sim_tell(sim, b, "fracture", "the skin tears");
     topology_cut(sim, b, f.triangle, side);
     b->fracture->now.events++;
     if (b->fracture->lost[f.triangle - b->triangle_begin]) { /* new points are as free of the gas */

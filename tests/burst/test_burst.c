@@ -98,6 +98,25 @@ static void one_seed_is_one_burst_for_any_number_of_workers(void **unused)
     assert_true(hash_of_burst(1, "balloons[0].fracture.seed=8") != alone);
 }
 
+/* Of itself at the second stretch, or where a needle or a click has pricked it. */
+static void that_the_skin_tears_is_told_once(void **unused)
+{
+    (void)unused;
+    for (int pricked = 0; pricked < 2; pricked++) {
+        struct inflated it;
+        size_t told = 0;
+        inflate(&it, &(struct inflation){.level = 3, .stretch = pricked ? 1.5 : 2.5});
+        if (pricked)
+            prick(&it);
+        run_until(&it, 0.5);
+        assert_true(it.sim.broken > 0);
+        for (size_t i = 0; i < it.sim.news_count; i++)
+            told += !strcmp(it.sim.news[i].text, "the skin tears");
+        assert_int_equal(told, 1);
+        deflate(&it);
+    }
+}
+
 /* A state in the middle of a burst, put back after the burst has gone on. */
 static void a_burst_goes_on_from_its_blocks(void **unused)
 {
@@ -148,6 +167,7 @@ int main(void)
         cmocka_unit_test(a_regular_sphere_bursts_by_itself_without_dust),
         cmocka_unit_test(below_its_strength_nothing_tears),
         cmocka_unit_test(one_seed_is_one_burst_for_any_number_of_workers),
+        cmocka_unit_test(that_the_skin_tears_is_told_once),
         cmocka_unit_test(a_burst_goes_on_from_its_blocks),
         cmocka_unit_test(momentum_and_mass_are_kept_through_a_burst),
     };
