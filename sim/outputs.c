@@ -101,8 +101,9 @@ static enum status show_state(struct outputs *outputs, struct sim *sim, struct e
         motion_cache_add(outputs->cache);
     if (status || !outputs->film || outputs->turntable_frames)
         return status;
+    const double end = sim->scene->time.end;
     if (outputs->turntable)
-        film_turn(outputs->film, sim->time / sim->scene->time.end);
+        film_turn(outputs->film, end > 0 ? sim->time / end : 0);
     return film_frame(outputs->film, err);
 }
 

@@ -15,6 +15,8 @@ a_file round.png
 expect 0 balloon-sim m.ply $short --frames film --turntable
 same_file still/frame_0000.png film/frame_0000.png
 cmp -s still/frame_0005.png film/frame_0005.png && fail "the camera stands still"
+expect 0 balloon-sim m.ply $short --set time.end=0 --frames begun --turntable # a film of one picture
+same_file still/frame_0000.png begun/frame_0000.png
 refused 2 'turntable.*--frames' balloon-sim m.ply --turntable --log log.tsv
 refused 2 'turntable' balloon-sim m.ply --turntable=0 --frames film
 
