@@ -4,6 +4,7 @@
 #include "sim/skin_mesh.h"
 
 #include <dirent.h>
+#include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -118,15 +119,36 @@ static bool is_ours(const struct mesh_series *series, const char *name)
     return is_mesh(name, series->extension, &number) && number >= series->next;
 }
 
+/* Of the series, in its open folder; a folder by that name stays. */
+static enum status remove_one(struct mesh_series *series, DIR *folder, const char *name, struct error *err)
+{
+    if (unlinkat(dirfd(folder), name, 0) == 0) {
+        series->removed++;
+        return STATUS_OK;
+    }
+    if (errno == EISDIR || errno == ENOENT)
+        return STATUS_OK;
+    const int reason = errno;
+    char *path = path_of(series, name);
+    errno = reason;
+    enum status status = path ? error_set_errno(err, path, "remove the earlier run's")
+                              : error_no_memory(err, name);
+    free(path);
+    return status;
+}
+
 static enum status remove_earlier(struct mesh_series *series, struct error *err)
 {
+    enum status status = STATUS_OK;
     DIR *folder = opendir(series->folder);
     if (!folder)
         return error_set_errno(err, series->folder, "read");
-    for (struct dirent *entry; (entry = readdir(folder));)
-        if (is_ours(series, entry->d_name) && !unlinkat(dirfd(folder), entry->d_name, 0))
-            series->removed++;
+    for (struct dirent *entry; !status && (entry = readdir(folder));)
+        if (is_ours(series, entry->d_name))
+            status = remove_one(series, folder, entry->d_name, err);
     closedir(folder);
+    if (status)
+        return status;
     char *list = list_path(series);
     if (!list)
         return error_no_memory(err, series->folder);

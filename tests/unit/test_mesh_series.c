@@ -223,6 +223,26 @@ static void a_folder_that_goes_away_before_the_first_mesh_is_named(void **state)
 }
 
 /* Its head is written last, which needs a place to go back to; and what is behind it may not have fitted. */
+static void a_mesh_of_an_earlier_run_that_stays_is_named(void **state)
+{
+    (void)state;
+    struct balloon b;
+    struct error err = {0};
+    struct mesh_series *series = NULL;
+    size_t removed;
+    open_balloon(&b, 1, SETTINGS("balloons[0].pressure=1"));
+    write_text("mesh_0003.ply", "of an earlier run");
+    assert_ok(mesh_series_open(&b.sim, &(struct mesh_series_options){.folder = "."}, &series, &err), &err);
+    if (deny_writing())
+        assert_refused(mesh_series_add(series, &err), STATUS_FILE,
+                       ".ply: cannot remove the earlier run's: Permission denied", &err);
+    else
+        print_message("# skipped: root cannot become somebody who may not write\n");
+    allow_writing();
+    assert_ok(mesh_series_close(series, &removed, &err), &err);
+    close_balloon(&b);
+}
+
 static void a_cache_of_motion_needs_a_file_with_room(void **state)
 {
     (void)state;
@@ -259,6 +279,7 @@ int main(void)
         cmocka_unit_test(a_cache_holds_the_places_of_its_meshs_points),
         cmocka_unit_test(what_cannot_be_written_is_said),
         cmocka_unit_test(a_folder_that_goes_away_before_the_first_mesh_is_named),
+        cmocka_unit_test(a_mesh_of_an_earlier_run_that_stays_is_named),
         cmocka_unit_test(a_cache_of_motion_needs_a_file_with_room),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
