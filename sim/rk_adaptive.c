@@ -8,8 +8,8 @@
  * 533; constants of Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, II.4 and IV.2).
  * The worst of the scalars counts as well, by its size or by what would come of it in the time of a breath at
  * its rate, or as a point does where it is a body's, or by what fills a balloon where it records what came
- * into that, but not those that only record for the ledger. What flows between balloons sets a longest step
- * (guard.h).
+ * into that, or by the mean edge where it is what a spring gave way, but not those that only record for the
+ * ledger. What flows between balloons sets a longest step (guard.h).
  *
  * The last stage of a step is the first of the next. It is evaluated anew where that may not hold: after
  * something broke, and when the state is not the one that the last step left.
@@ -112,7 +112,7 @@ static double error_of_scalars(const struct sim *sim, double dt)
             rate = fmax(rate, fabs(sim->scalar_scratch[k][i]));
         }
         const double body = weights_of_body(sim, i), own = fmax(fabs(sim->scalar[i]), rate / breathing),
-                     size = body > 0 ? body : fmax(own, weights_of_record(sim, i));
+                     size = body > 0 ? body : fmax(own, weights_of_growing(sim, i));
         const double part = fabs(error) / size;
         if (error != 0 && !(part <= worst)) /* no number is the worst */
             worst = part;

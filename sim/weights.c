@@ -60,11 +60,13 @@ double weights_of_body(const struct sim *sim, uint32_t scalar)
     return scalar < body->first + SIM_BODY_SPEED ? place : place * body->balloon->breathing_rate;
 }
 
-double weights_of_record(const struct sim *sim, uint32_t scalar)
+double weights_of_growing(const struct sim *sim, uint32_t scalar)
 {
     for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
         if (b->gas && scalar == b->gas->scalar + GAS_BROUGHT)
             return b->gas->filling;
+        else if (scalar - b->arms < b->arm_count)
+            return b->mean_rest_length;
     return 0;
 }
 

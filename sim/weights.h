@@ -18,8 +18,9 @@ enum status weights_open(struct sim *sim, struct error *err);
  * none. */
 double weights_of_body(const struct sim *sim, uint32_t scalar);
 
-/* Likewise where it records what was brought into a balloon: by what gas fills that; 0: it does not. */
-double weights_of_record(const struct sim *sim, uint32_t scalar);
+/* Likewise, at the least, where it begins at nothing: of what was brought into a balloon, what gas fills
+ * that; of what a viscous spring has given way, the mean edge; 0: it is none of these. */
+double weights_of_growing(const struct sim *sim, uint32_t scalar);
 
 /* RMS distance of the points, each in its balloon's mean radius, from one set of rows of [point_count] to
  * another. */
