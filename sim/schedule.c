@@ -13,7 +13,7 @@ static void change_springs(struct sim *sim, struct sim_balloon *balloon, double 
     const uint32_t begin = balloon->edge_begin, end = balloon->edge_end;
     const double before = sim->ledger.on ? ledger_elastic(sim, begin, end) : 0;
     balloon->now->spring_factor = factor;
-    if (balloon->fracture)
+    if (balloon->fracture && !balloon->membrane)
         balloon->fracture->now.next_look = sim->time; /* its intervals go by how stiff they were */
     for (uint32_t e = begin; e < end; e++)
         sim->current_spring_const[e] = sim->init_spring_const[e] * factor;

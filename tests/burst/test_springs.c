@@ -70,6 +70,18 @@ static void springs_of_nothing_tear_once_they_are_turned_on(void **unused)
     skin_tears_once_springs_are_turned_on("balloons[0].spring_factor=1e-8");
 }
 
+static void rubber_has_no_springs_to_be_turned(void **unused)
+{
+    (void)unused;
+    struct inflated it;
+    inflate(&it, &(struct inflation){.level = 2, .stretch = 1.2});
+    run_until(&it, 0.1);
+    const double speed = fracture_wave_speed(it.balloon), look = it.balloon->fracture->now.next_look;
+    turn_springs(&it, 4);
+    assert_true(fracture_wave_speed(it.balloon) == speed && it.balloon->fracture->now.next_look == look);
+    deflate(&it);
+}
+
 /* An icosphere one side of which has a third triangle between its two, `width` times as wide as they are. */
 static void make_slivered(struct mesh *mesh, double width)
 {
@@ -147,6 +159,7 @@ int main(void)
         cmocka_unit_test(springs_by_height_tear_as_those_said_outright),
         cmocka_unit_test(springs_that_are_turned_tear_as_those_said_outright),
         cmocka_unit_test(springs_of_nothing_tear_once_they_are_turned_on),
+        cmocka_unit_test(rubber_has_no_springs_to_be_turned),
         cmocka_unit_test(what_is_next_to_a_line_tears_no_sooner),
         cmocka_unit_test(a_look_at_a_step_that_ends_in_cuts_finds_all_that_skin_holds),
     };
