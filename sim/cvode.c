@@ -5,10 +5,10 @@
  * preconditioned by points.
  *
  * The vector is all positions, all velocities, then the scalars of the state. Its norm is that of weights.h,
- * so the tolerance means what it means to rk-adaptive; scalars count by their own size at the start (not at
- * all what begins at nothing, as the record of what a pump brings does), and each of a body's as all points
- * together. Scalars that only record are integrated afterwards by Gauss's rule over the interpolant, three
- * forces a step, so that the run does not notice them.
+ * so the tolerance means what it means to rk-adaptive; scalars count by their own size at the start, those
+ * that begin at nothing by what weights.h measures them in, or not at all; each of a body's counts as all
+ * points together. Scalars that only record are integrated afterwards by Gauss's rule over the interpolant,
+ * three forces a step, so that the run does not notice them.
  *
  * What the library remembers cannot be saved. So a run of it starts anew at every event, and after RUN_STEPS
  * steps; the blocks hold the state at its start, and a state that was restored is reached again by repeating
@@ -105,7 +105,8 @@ static int weights(N_Vector y, N_Vector weight, void *context)
             }
     }
     for (uint32_t i = 0; i < cvode->scalars; i++) {
-        const double body = weights_of_body(sim, i), size = fabs(sim->scalar_scratch[START_POSITION][i]);
+        const double body = weights_of_body(sim, i),
+                     size = fmax(fabs(sim->scalar_scratch[START_POSITION][i]), weights_of_growing(sim, i));
         scalars(sim, weight)[i] = body > 0   ? sqrt(length) / (tolerance * body)
                                   : size > 0 ? 1 / (tolerance * size)
                                              : DBL_MIN;
