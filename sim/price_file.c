@@ -7,10 +7,18 @@
 #include <signal.h>
 #include <stdlib.h>
 
-static enum status probe(const char *path, const char *table_path, struct error *err)
+enum status price_check(const char *path, struct error *err)
 {
+    char *table_path = plot_table_name(path);
+    if (!table_path)
+        return error_no_memory(err, "the table");
     enum status status = plot_is_file_name(path) ? plot_check(path, err) : STATUS_OK;
-    return status ? status : file_out_check(table_path, err);
+    if (!status)
+        status = file_out_check(path, err);
+    if (!status)
+        status = file_out_check(table_path, err);
+    free(table_path);
+    return status;
 }
 
 static enum status save(const struct price_kind *kind, const void *table, const char *path, struct error *err)
@@ -53,8 +61,7 @@ enum status price_make(const struct price_kind *kind, const struct scene *scene,
 {
     void *table = calloc(1, kind->size);
     char *table_path = plot_table_name(path);
-    enum status status = table && table_path ? probe(path, table_path, err)
-                                             : error_no_memory(err, "the table");
+    enum status status = table && table_path ? price_check(path, err) : error_no_memory(err, "the table");
     if (!status)
         status = measure(kind, scene, meshes, table, err);
     if (!status)

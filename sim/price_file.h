@@ -23,6 +23,10 @@ struct price_kind {
     enum status (*draw)(const void *table, const char *scene, const char *path, struct error *err);
 };
 
+/* Whether a table, and the picture where the name is one's, could be written. Errors: STATUS_FILE,
+ * STATUS_RESOURCE where gnuplot is missing, STATUS_NO_MEMORY. */
+enum status price_check(const char *path, struct error *err);
+
 /* Measures a table; prints it on stdout and into path, whose name ends in .tsv, or beside the picture of it
  * that path is (.png, .svg). What cannot be written or drawn is found out before the work. Errors:
  * STATUS_FILE; STATUS_RESOURCE where a picture is wanted and gnuplot is missing; STATUS_NO_MEMORY;

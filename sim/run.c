@@ -10,6 +10,7 @@
 #include "sim/news.h"
 #include "sim/outputs.h"
 #include "sim/piece_table.h"
+#include "sim/price_file.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -186,6 +187,10 @@ enum status run_check(const struct options *options, struct sim *sim, struct err
     enum status status = outputs_check(options, sim, err);
     if (!status)
         status = check_files(options, err);
+    if (!status && options->accuracy_cost)
+        status = price_check(options->accuracy_cost, err);
+    if (!status && options->effect_cost)
+        status = price_check(options->effect_cost, err);
     if (!status && options->resume)
         status = checkpoint_load(options->resume, sim, &past, err);
     free(past.rows);

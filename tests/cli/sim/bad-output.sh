@@ -36,6 +36,12 @@ for output in '--frames /proc/f' '--mesh-series /proc/f/' '--movie /proc/f.mp4' 
     '--point-cache /proc/f.pc2' '--pieces /proc/f' '--checkpoint /proc/f' '-o /proc/f.ply'; do
     refused 1 '^balloon-sim: /proc/f[a-z0-9.]*: cannot create: ' balloon-sim m.ply --check $output
 done
+mkdir cost.png # whose table could be written beside it
+for check in '' --check; do
+    refused 1 '^balloon-sim: cost.png: is a folder; give the name of a file in it$' balloon-sim m.ply $short --accuracy-cost cost.png $check
+    refused 1 '^balloon-sim: /proc/f.tsv: cannot create: ' balloon-sim m.ply $short --effect-cost /proc/f.tsv --set drag.wind=[1.0,0.0,0.0] $check
+done
+rmdir cost.png
 refused 1 'm.ply: not a checkpoint' balloon-sim m.ply --check --resume m.ply
 expect 0 balloon-sim m.ply --check --frames new --mesh-series new/ --movie new.mp4 --contact-sheet new.png --log new --plot new1.png --point-cache new.pc2 \
     --pieces new.tsv --checkpoint new.ck -o new1.ply
