@@ -115,11 +115,11 @@ void gas_product(struct sim *sim, struct sim_balloon *b, double a, double (*dx)[
     areas_product(sim, b, &pressure, &d, gas_held(gas), a, dx, df);
 }
 
-/* The gauge pressure that the bound counts with: a thousandth of the pressure at the least, so that a balloon
- * that is filled from nothing does not ask for a new one at every step. */
+/* The gauge pressure that the bound counts with: a hundredth of the pressure at the least, so that a balloon
+ * that is filled from nothing, and swings about that, does not ask for a new one at every step. */
 double gas_gauge_to_bound(double pressure, double outside)
 {
-    return fmax(fabs(pressure - outside), 1e-3 * pressure);
+    return fmax(fabs(pressure - outside), 1e-2 * pressure);
 }
 
 /* The largest pressure on any point, less the air's: where gas or air have weight it
