@@ -100,12 +100,13 @@ const char shader_paper_vertex[] = "#version 330 core\n"
     "    added = on_film(seen);\n"                                                                     \
     "}\n"
 
-/* How far the inside, where it is seen, is within: by the light that passes such skin. Where hardly any of a
- * colour does, it is not seen through the skin, but is turned outside, and would be black. */
-#define ENCLOSED                                    \
-    "vec3 enclosed(vec3 passing)\n"                 \
-    "{\n"                                           \
-    "    return smoothstep(0.02, 0.15, passing);\n" \
+/* How far the inside, where it is seen, is within: by the light that passes such skin. Where hardly any does,
+ * it is not seen through the skin, but is turned outside, and would be black. It is one number for all
+ * colours: those that pass least would else be mirrored within as brightly as without, and tint the skin. */
+#define ENCLOSED                                                                      \
+    "float enclosed(vec3 passing)\n"                                                  \
+    "{\n"                                                                             \
+    "    return smoothstep(0.02, 0.15, max(passing.r, max(passing.g, passing.b)));\n" \
     "}\n"
 
 /*

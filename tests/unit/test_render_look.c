@@ -30,6 +30,32 @@ static void thick_latex_that_is_inside_out_is_lit(void **state)
     sphere_free(&mesh);
 }
 
+/* Where the inside mirrors the key light, below the middle, orange skin lets hardly any blue of it out: it
+ * was pink there where blue alone counted as turned outside. Some steps of 255 more are the room behind. */
+static void light_within_has_the_colour_of_the_skin(void **state)
+{
+    (void)state;
+    struct mesh mesh = sphere_new(40, 40);
+    float stretch[2 * 40 * 40];
+    for (uint32_t t = 0; t < mesh.triangle_count; t++)
+        stretch[t] = 4;
+    const struct render_skin skin = {.mesh = &mesh,
+                                     .stretch = stretch,
+                                     .rest_opacity = 0.97f,
+                                     .rest_shininess = 12,
+                                     .colour = {1, 0.17f, 0.007f}};
+    struct render_view view = square_view();
+    view.style = RENDER_LATEX;
+    struct image image = drawn(&view, &skin, 1);
+    int most = 0;
+    for (int y = 105; y < 135; y++)
+        for (int x = 100; x < 122; x++)
+            most = pixel(&image, x, y)[2] > most ? pixel(&image, x, y)[2] : most;
+    assert_true(most <= pixel(&image, 90, 120)[2] + 10);
+    image_clear(&image);
+    sphere_free(&mesh);
+}
+
 /* White skin is not paled further, and straight on its path is its thickness. Three values rounded to 1/255
  * of sRGB, whose slope is at most 2.4 / 1.055: 1.5 x 0.5 / 255 x 2.3. */
 static void opacity_one_half_blends_half_of_what_lies_behind(void **state)
@@ -341,6 +367,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(opacity_one_half_blends_half_of_what_lies_behind),
         cmocka_unit_test(thick_latex_that_is_inside_out_is_lit),
+        cmocka_unit_test(light_within_has_the_colour_of_the_skin),
         cmocka_unit_test(smooth_edges_change_outlines_only),
         cmocka_unit_test(both_sides_of_a_skin_are_lit_alike),
         cmocka_unit_test(what_is_opaque_passes_no_light_from_behind),
