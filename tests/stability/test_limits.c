@@ -245,8 +245,8 @@ static void what_pushes_out_of_the_blue_is_no_divergence(void **state)
     static const char *const scenes[][4] = {
         {"balloons[0].gas.ambient=10", "balloons[0].gas.pump=4e5", "balloons[0].gas.pump_until=20",
          "balloons[0].gas.density=1e-5"},
-        {"balloons[0].gas.ambient=100", "balloons[0].gas.density=0.02", "gravity.acceleration=[0, -1, 0]",
-         "gravity.air_density=0.01"},
+        {"balloons[0].gas.ambient=100", "balloons[0].gas.density=0.2", "gravity.acceleration=[0, -1, 0]",
+         "gravity.air_density=0.1"},
         {"balloons[0].string.slack=0.2", "balloons[0].string.stiffness=1e5", "balloons[0].spring=1e-3",
          "balloons[0].damping=0"},
         {"balloons[0].pressure=1000", "drag.air_density=10", "drag.wind=[300, 0, 0]", "balloons[0].spring=1"},
