@@ -47,6 +47,14 @@ void app_remake_balloon(struct app *app)
     enum status status = balloon_mesh(&app->balloon, &app->session.tree, &err);
     app->preview = !status;
     app_say_unless_ok(app, status, &err);
+    if (!status && app->balloon.kept < 0.5) {
+        char text[160];
+        snprintf(
+            text, sizeof text,
+            "thin walls are lost: the balloon holds %.0f %% of what was carved; balloon-sculpt --solid fills hollows",
+            100 * app->balloon.kept);
+        app_say(app, text);
+    }
     app_schedule(app);
 }
 

@@ -3,6 +3,8 @@
 #include "common/vec3.h"
 #include "surface/surface.h"
 
+#include <math.h>
+
 enum { BALLOON_TRIANGLES = 4000 };
 
 /* Few cells keep their shape, many are smoothed over more of them, so that the triangles follow. */
@@ -37,14 +39,17 @@ enum status balloon_mesh(struct balloon *balloon, const struct octree *tree, str
     options.field.sigma = sigma_for(tree->depth);
     options.triangles = BALLOON_TRIANGLES;
     enum status status = surface_make(tree, &options, &balloon->mesh, &stats, err);
-    if (status)
+    if (status) {
         balloon_clear(balloon);
-    else /* as the simulator's skin at rest */
-        balloon->skin = (struct render_skin){.mesh = &balloon->mesh,
-                                             .rest_opacity = 0.97f,
-                                             .rest_shininess = 12,
-                                             .colour = {0.69f, 0.008f, 0.013f}};
-    return status;
+        return status;
+    }
+    balloon->kept = mesh_volume(&balloon->mesh) /
+                    ldexp((double)octree_measure(tree).cells, -3 * (int)tree->depth);
+    balloon->skin = (struct render_skin){.mesh = &balloon->mesh, /* as the simulator's at rest */
+                                         .rest_opacity = 0.97f,
+                                         .rest_shininess = 12,
+                                         .colour = {0.69f, 0.008f, 0.013f}};
+    return STATUS_OK;
 }
 
 /* Where the simulator puts a mesh: its points' mean in the middle, their mean distance the scene's radius. */

@@ -17,6 +17,7 @@
 struct balloon {
     struct mesh mesh;        /* in the cube's units */
     struct render_skin skin; /* of that mesh, at rest */
+    double kept;             /* of the sculpture's volume, this share */
     bool inflated;           /* from here on it is the sim's: */
     struct scene scene;
     struct sim sim;
