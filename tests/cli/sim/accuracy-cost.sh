@@ -27,15 +27,16 @@ stdout_has '^# pictures: 1280 x 480 at 0\.4 s; errors: .*against lists with 4 x 
 stdout_has '^# pictures: as the scene has it, sort, 1 x 1: [0-9.e-]+ of 255 in the mean, [0-9]+ at worst, [0-9.e+]+ ms; in exact order, list, 1 x 1: '
 
 # a membrane is nothing for a method that moves springs, and no tolerance is kept where it hits the ground
+small='--set view.size=[160,120]' # pictures have been priced above
 falls='--set gravity.acceleration=[0,-2000,0] --set ground.height=-49'
-expect 0 balloon-sim cube.ply $calm $falls --set time.end=0.1 --set balloons[0].membrane.thickness=0.5 --accuracy-cost skin.tsv
+expect 0 balloon-sim cube.ply $calm $small $falls --set time.end=0.1 --set balloons[0].membrane.thickness=0.5 --accuracy-cost skin.tsv
 stdout_has '^# skin is turned back from 0\.1 s on, at the ends of steps: .*time.tolerance does not reach it'
 stdout_has '^# failed: xpbd at .*: moves springs only$'
 grep -q '^xpbd' skin.tsv && fail "a row of xpbd on a membrane"
 
 # a skin that tears is nothing for methods that go by what hangs together at the start, which a run refuses
 tears='--set time.end=0.1 --set balloons[0].membrane.thickness=0.5 --set balloons[0].fracture.mode="tear"'
-expect 0 balloon-sim cube.ply $calm $tears --accuracy-cost tears.tsv
+expect 0 balloon-sim cube.ply $calm $small $tears --accuracy-cost tears.tsv
 for method in cvode-adams cvode-bdf; do
     stdout_has "^# failed: $method at .*: cannot follow a skin that tears$"
     grep -q "^$method" tears.tsv && fail "a row of $method on a skin that tears"
@@ -48,7 +49,7 @@ setting=$(awk -F'\t' '$1 == "verlet" { print $2; exit }' cost.tsv)
 expect 0 balloon-sim cube.ply $calm --set time.integrator=verlet --set "$setting" --log v.tsv
 
 if command -v gnuplot >/dev/null; then
-    expect 0 balloon-sim cube.ply $calm --accuracy-cost cost.svg
+    expect 0 balloon-sim cube.ply $calm $small --accuracy-cost cost.svg
     a_file cost.svg
     grep -q 'auto' cost.svg || fail "auto is not in the plot"
     grep -q 'view.order' cost.svg || fail "pictures are not in the plot"
