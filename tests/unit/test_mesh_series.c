@@ -222,7 +222,6 @@ static void a_folder_that_goes_away_before_the_first_mesh_is_named(void **state)
     close_balloon(&b);
 }
 
-/* Its head is written last, which needs a place to go back to; and what is behind it may not have fitted. */
 static void a_mesh_of_an_earlier_run_that_stays_is_named(void **state)
 {
     (void)state;
@@ -243,6 +242,7 @@ static void a_mesh_of_an_earlier_run_that_stays_is_named(void **state)
     close_balloon(&b);
 }
 
+/* Its head is written last, which needs a place to go back to; and what is behind it may not have fitted. */
 static void a_cache_of_motion_needs_a_file_with_room(void **state)
 {
     (void)state;
