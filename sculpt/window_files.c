@@ -179,6 +179,18 @@ void app_ask_name(struct app *app, enum naming naming)
     app->proposed = app->answer[0] != '\0';
 }
 
+/* As -o does: what has another's ending could not be opened again, or was a model that it came from. */
+static bool is_name_of_sculpture(struct app *app)
+{
+    const char *path = write_name(app);
+    if (!path || file_has_extension(path, "oct"))
+        return true;
+    char text[1100];
+    snprintf(text, sizeof text, "%.1000s: the name must end in .oct; ctrl+e exports other files", path);
+    app_say(app, text);
+    return false;
+}
+
 void app_take_name(struct app *app)
 {
     if (app->naming == NAME_OPEN) {
@@ -188,6 +200,8 @@ void app_take_name(struct app *app)
             import(app);
         else
             open_sculpture(app);
+    } else if (app->naming == NAME_SAVE && !is_name_of_sculpture(app)) {
+        return;
     } else if (may_replace(app)) {
         if (app->naming == NAME_EXPORT)
             export(app);

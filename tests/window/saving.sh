@@ -41,10 +41,19 @@ ends 0
 
 # killed while it saves
 mkfifo slow.oct
+echo 'a model' >m.vox
 open_sculptor a.oct
 press 1 g
 click 480 360
 press ctrl+shift+s
+# a model that the sculpture came from stays what it is
+press BackSpace BackSpace BackSpace BackSpace BackSpace
+xdotool type m.vox
+press Return
+press Return
+picture model
+[ "$(cat m.vox)" = 'a model' ] || fail "a sculpture took a model's place"
+title_is 'a.oct *' || fail "it goes by the model's name"
 press BackSpace BackSpace BackSpace BackSpace BackSpace
 xdotool type slow.oct
 press Return
