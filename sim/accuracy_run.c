@@ -49,6 +49,13 @@ static void perturb(struct sim *sim, uint64_t member)
                 sim->position[p][i] += 1e-9 * b->radius * (2 * random_unit(&random) - 1);
 }
 
+struct accuracy_dials accuracy_first_dials(const struct scene *scene)
+{
+    const struct scene_time *time = &scene->time;
+    return (struct accuracy_dials){integrator_find("auto"), time->step, time->tolerance, time->end,
+                                   SCENE_GUARD_SUBSTEP,     0};
+}
+
 enum status accuracy_open(struct accuracy_run *run, const struct accuracy_subject *subject,
                           const struct accuracy_dials *dials, struct error *err)
 {

@@ -39,6 +39,9 @@ struct accuracy_states {
 /* Why the method cannot move the scene's balloons, which a run would be refused for; NULL: it can. */
 const char *accuracy_unsuited(const struct scene *scene, const struct integrator *method);
 
+/* Those of the first run, which finds how far there is time to go: the scene's, by auto. */
+struct accuracy_dials accuracy_first_dials(const struct scene *scene);
+
 /* Errors: those of sim_open(). It must be closed in any case. */
 enum status accuracy_open(struct accuracy_run *run, const struct accuracy_subject *subject,
                           const struct accuracy_dials *dials, struct error *err);

@@ -43,9 +43,7 @@ static enum status watch(struct accuracy_run *run, struct accuracy_plan *plan, s
 
 enum status accuracy_find_reach(struct accuracy_plan *plan, struct error *err)
 {
-    const struct scene_time *time = &plan->subject.scene->time;
-    const struct accuracy_dials dials = {integrator_find("auto"), time->step, time->tolerance, time->end,
-                                         SCENE_GUARD_SUBSTEP,     0};
+    const struct accuracy_dials dials = accuracy_first_dials(plan->subject.scene);
     struct accuracy_table *table = plan->table;
     struct accuracy_run run;
     table->first_break = table->burst = INFINITY;
@@ -70,7 +68,8 @@ enum status accuracy_find_reach(struct accuracy_plan *plan, struct error *err)
         reason = "before the schedule changes the step";
     }
     snprintf(table->span_reason, sizeof table->span_reason, "%s", reason);
-    table->burst_end = isfinite(table->burst) ? fmin(3 * table->burst, time->end) : INFINITY;
+    table->burst_end = isfinite(table->burst) ? fmin(3 * table->burst, plan->subject.scene->time.end)
+                                              : INFINITY;
     accuracy_close(&run);
     return STATUS_OK;
 }

@@ -170,10 +170,8 @@ enum status price_pictures_measure(const struct scene *scene, const struct mesh 
                                    const struct accuracy_options *options, struct price_pictures *pictures,
                                    struct error *err)
 {
-    const struct scene_time *t = &scene->time;
     const struct accuracy_subject subject = {.scene = scene, .meshes = meshes, .options = options};
-    const struct accuracy_dials dials = {integrator_find("auto"), t->step, t->tolerance, t->end,
-                                         SCENE_GUARD_SUBSTEP,     0};
+    const struct accuracy_dials dials = accuracy_first_dials(scene);
     struct drawing drawing = {.options = options, .wanted = PRICE_PICTURES_MAX};
     struct accuracy_run run;
     double ball[4];
