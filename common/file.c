@@ -326,9 +326,10 @@ enum status file_check_folder(const char *path, struct error *err)
 {
     struct stat info;
     size_t length = strlen(path);
-    if (!stat(path, &info) && !S_ISDIR(info.st_mode))
+    const bool exists = !stat(path, &info);
+    if (exists && !S_ISDIR(info.st_mode))
         return is_no_folder(path, err);
-    if (!stat(path, &info))
+    if (exists)
         return access(path, W_OK) ? error_set_errno(err, path, "write into the folder") : STATUS_OK;
     while (length > 1 && path[length - 1] == '/')
         length--;
