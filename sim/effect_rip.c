@@ -4,6 +4,7 @@
 #include "common/vec3.h"
 #include "sim/effects.h"
 #include "sim/fracture.h"
+#include "sim/let_go.h"
 
 static bool wanted(const struct scene_balloon *balloon)
 {

@@ -2,6 +2,7 @@
 #include "common/vec3.h"
 #include "sim/cracks.h"
 #include "sim/guard.h"
+#include "sim/let_go.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,6 +2,7 @@
 #include "common/scene_fields.h"
 #include "sim/effect_gas.h"
 #include "sim/guard.h"
+#include "sim/let_go.h"
 
 #include <math.h>
 #include <string.h>

@@ -312,25 +312,6 @@ static inline double sim_spring_energy(const struct sim *sim, uint32_t edge)
     return sim->current_spring_const[edge] * stretched * stretched / 2;
 }
 
-/* Makes one edge let go; for break_edges() and for effects. */
-static inline void sim_break_edge(struct sim *sim, uint32_t edge)
-{
-    if (sim->ledger.on)
-        sim->ledger.account.fracture += sim_spring_energy(sim, edge) + effects_edge_energy(sim, edge);
-    sim->broken_length[edge] = sim_edge_length(sim, edge);
-    sim->edge_active[edge] = 0;
-    sim->edges_broke = sim->changed = true;
-    sim->broken++;
-}
-
-/* Likewise an active triangle: what the skin held there is gone with it. */
-static inline void sim_drop_triangle(struct sim *sim, uint32_t triangle)
-{
-    if (sim->ledger.on)
-        sim->ledger.account.fracture += effects_triangle_energy(sim, triangle);
-    sim->triangle_active[triangle] = 0;
-}
-
 /* Lists all that the future depends on (state.c): equal blocks, equal futures. The list is sim's, made anew
  * by each call; the blocks' addresses stay until sim_clear(). */
 const struct sim_block *sim_blocks(struct sim *sim, size_t *count);

@@ -5,6 +5,7 @@
 #include "sim/guard.h"
 #include "sim/kernels.h"
 #include "sim/ledger.h"
+#include "sim/let_go.h"
 #include "sim/membrane_kernels.h"
 #include "sim/reorder.h"
 #include "sim/sweep.h"

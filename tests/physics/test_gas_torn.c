@@ -1,6 +1,7 @@
 /* Gas in a skin that is open, or lets go of some of itself. */
 #include "gas.h"
 #include "sim/gas.h"
+#include "sim/let_go.h"
 
 /* The prick: a tear of the paper's kind opens nothing that gas could get out of; but rims do. A square hole
  * of four triangles' sides lets it out until the skin is open so wide that all is gone. */

@@ -3,6 +3,7 @@
  *
  * An icosahedron that swells is one spring: all edges have the length c R, and with a pull T in each the five
  * at a point hold 5 T c/2 against the pressure's force P. Points are light, so that nothing swings. */
+#include "sim/let_go.h"
 #include "unit/books.h"
 #include "unit/differences.h"
 

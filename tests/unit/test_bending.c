@@ -6,6 +6,7 @@
 #include "sim/bending.h"
 #include "sim/guard.h"
 #include "sim/jacobian.h"
+#include "sim/let_go.h"
 
 /* Out of shape and in motion, a few triangles and edges gone. */
 static void crumple(struct sim *sim, const double factor[3], double size)

@@ -1,5 +1,6 @@
 /* The ledger: what comes in goes out or is there, and keeping accounts changes nothing. */
 #include "books.h"
+#include "sim/let_go.h"
 #include "sim/live.h"
 
 /* The balance's error after .2 s of swelling, at this step; the greatest energy in play goes to *scale. */

@@ -3,6 +3,7 @@
 #include "common/random.h"
 #include "common/vec3.h"
 #include "sim/guard.h"
+#include "sim/let_go.h"
 
 /* Moves and speeds every point at random, by up to `size`. */
 static void shake(struct sim *sim, double size)

@@ -2,6 +2,7 @@
 #include "balloon.h"
 #include "common/vec3.h"
 #include "sim/ledger.h"
+#include "sim/let_go.h"
 #include "sim/sweep.h"
 
 #include <math.h>
