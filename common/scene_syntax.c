@@ -1,7 +1,6 @@
 #include "common/scene_syntax.h"
 
 #include <ctype.h>
-#include <errno.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -157,15 +156,18 @@ bool scene_find_include(const char *text, struct scene_include *include)
 
 bool scene_find_cut_number(const char *text, struct scene_slip *slip)
 {
+    static const char most[] = "a whole number without a point goes to 2147483647; write";
     struct scan scan = {text, 1};
     for (struct token token = next(&scan); token.kind != END; token = next(&scan)) {
+        const bool hexadecimal = !strncasecmp(token.from, "0x", 2);
         char *end;
-        errno = 0;
-        const long long value = token.kind == NUMBER ? strtoll(token.from, &end, 10) : 0;
-        if ((value > INT32_MAX || value < INT32_MIN) && end == token.from + token.length)
-            return say(slip, token.line,
-                       "%.*s: a whole number without a point goes to 2147483647; write %.*s.0", shown(&token),
-                       token.from, shown(&token), token.from);
+        const long long value = token.kind == NUMBER ? strtoll(token.from, &end, hexadecimal ? 16 : 10) : 0;
+        if ((value <= INT32_MAX && value >= INT32_MIN) || end != token.from + token.length)
+            continue;
+        if (hexadecimal)
+            return say(slip, token.line, "%.*s: %s it in decimals", shown(&token), token.from, most);
+        return say(slip, token.line, "%.*s: %s %.*s.0", shown(&token), token.from, most, shown(&token),
+                   token.from);
     }
     return false;
 }

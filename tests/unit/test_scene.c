@@ -239,6 +239,9 @@ static void whole_numbers_that_would_be_cut_to_32_bits_are_refused(void **state)
     assert_near(scene.time.end, 3e8, 0);
     assert_refused(scene_set(&scene, "balloons[0].radius=4294967297", &err), STATUS_INPUT,
                    "4294967297: a whole number", &err);
+    assert_refused(scene_set(&scene, "balloons[0].radius=0x100000001", &err), STATUS_INPUT,
+                   "0x100000001: a whole number without a point goes to 2147483647; write it in decimals",
+                   &err);
     scene_clear(&scene);
 }
 
