@@ -318,6 +318,8 @@ static enum status set_by_path(struct scene *scene, const char *path, const conf
     void *target = scene;
     while (take_name(&path, name, sizeof name, &index)) {
         const struct scene_block *inner = scene_find_block(block ? block->name : "", name);
+        if (index >= 0 && !(inner && inner->list))
+            return error_set(err, STATUS_INPUT, "--set: %s is no list; leave out [%ld]", name, index);
         if (!*path && block && !inner)
             return read_key(block, target, value, name, &source, err);
         if (!inner)

@@ -279,6 +279,10 @@ static void set_changes_any_key_by_its_path(void **state)
     assert_refused(scene_set(&scene, "step=1", &err), STATUS_INPUT, "unknown key `step`", &err);
     assert_refused(scene_set(&scene, "time..step=1", &err), STATUS_INPUT, "is no key", &err);
     assert_refused(scene_set(&scene, "balloons[-1].pressure=1", &err), STATUS_INPUT, "is no key", &err);
+    assert_refused(scene_set(&scene, "time[3].step=1", &err), STATUS_INPUT, "time is no list; leave out [3]",
+                   &err);
+    assert_refused(scene_set(&scene, "time.step[0]=1", &err), STATUS_INPUT, "step is no list; leave out [0]",
+                   &err);
     assert_ok(scene_set(&scene, "schedule[1].balloon=1", &err), &err);
     assert_refused(scene_check(&scene, &err), STATUS_INPUT, ": schedule[1].balloon is 1", &err);
     assert_null(strstr(err.text, ":0:")); /* in no file, on no line */
