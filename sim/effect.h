@@ -54,6 +54,9 @@ struct effect {
     size_t (*blocks)(struct sim *sim, struct sim_balloon *balloon, struct sim_block *blocks);
     /* EFFECT_FORCES: what apply leaves for `after` to go by, as blocks; returns how many. NULL: nothing. */
     size_t (*left)(struct sim *sim, struct sim_balloon *balloon, struct sim_block *blocks);
+    /* EFFECT_FORCES: a cut has made a copy of a point of the balloon, which has taken the part `share` of
+     * its mass: what acts on the one acts on both. NULL: nothing is kept by points, or it is found anew. */
+    void (*copied)(struct sim *sim, struct sim_balloon *balloon, uint32_t point, uint32_t copy, double share);
     /* Points of a balloon get other numbers (reorder.h): what it keeps by them follows. NULL: nothing. */
     void (*reorder)(struct sim *sim, struct sim_balloon *balloon, const struct reorder *reorder);
     /* After a step, whether it can go on: STATUS_DIVERGED with the reason. NULL: always. */
@@ -107,6 +110,10 @@ enum status effects_settle(struct sim *sim, struct error *err); /* EFFECT_MOVED 
  * and that, of one part. */
 size_t effects_begin_forces(struct sim *sim);
 void effects_finish_forces(struct sim *sim, const struct sim_part *part, size_t first);
+
+/* A cut has made a copy of a point of the balloon: all hooks of that balloon are told. */
+void effects_copied(struct sim *sim, const struct sim_balloon *balloon, uint32_t point, uint32_t copy,
+                    double share);
 
 /* When the next of them changes by itself, s; INFINITY: none does. */
 double effects_due(const struct sim *sim);

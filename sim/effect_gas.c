@@ -71,7 +71,7 @@ static void close(struct sim *sim, struct sim_balloon *b)
     (void)sim;
     if (b->gas) {
         gas_torn_close(b);
-        free(b->gas->neck);
+        patch_clear(&b->gas->neck);
         free(b->gas->held);
     }
     free(b->gas);
@@ -101,9 +101,11 @@ static size_t left(struct sim *sim, struct sim_balloon *b, struct sim_block *lis
 static void reorder(struct sim *sim, struct sim_balloon *b, const struct reorder *how)
 {
     (void)sim;
-    reorder_points(how, b->gas->neck, b->gas->neck_count);
-    if (how->balloon == b)
-        reorder_rows(how, b->gas->held, sizeof *b->gas->held);
+    if (how->balloon != b)
+        return;
+    reorder_rows(how, b->gas->held, sizeof *b->gas->held);
+    if (b->gas->scene->neck > 0)
+        patch_reorder(&b->gas->neck, b);
 }
 
 /* The part of what is missing that may come a second, so that a step ends at its goal at the most. A method
@@ -334,10 +336,13 @@ void gas_let_go(struct sim *sim, struct sim_balloon *balloon, const uint32_t *po
     sim->changed = true;
 }
 
-void gas_hold_copy(struct sim_balloon *balloon, uint32_t point, uint32_t copy)
+static void copied(struct sim *sim, struct sim_balloon *b, uint32_t point, uint32_t copy, double share)
 {
-    if (balloon->gas)
-        balloon->gas->held[copy - balloon->point_begin] = balloon->gas->held[point - balloon->point_begin];
+    (void)sim;
+    (void)share;
+    b->gas->held[copy - b->point_begin] = b->gas->held[point - b->point_begin];
+    if (b->gas->scene->neck > 0)
+        patch_copied(&b->gas->neck, b, copy);
 }
 
 const struct effect effect_gas = {.name = "gas",
@@ -350,6 +355,7 @@ const struct effect effect_gas = {.name = "gas",
                                   .due = due,
                                   .left = left,
                                   .blocks = blocks,
+                                  .copied = copied,
                                   .reorder = reorder,
                                   .product = gas_product,
                                   .bound = gas_bound,

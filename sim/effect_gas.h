@@ -41,9 +41,6 @@ enum { GAS_HOLES_MAX = 64 };
  * Without gas nothing happens. */
 void gas_let_go(struct sim *sim, struct sim_balloon *balloon, const uint32_t *points, uint32_t count);
 
-/* A cut has made a copy of a point, which the gas presses on as on the point. Without gas nothing happens. */
-void gas_hold_copy(struct sim_balloon *balloon, uint32_t point, uint32_t copy);
-
 /* What is in a balloon now. */
 struct gas_look {
     double volume;

@@ -9,12 +9,9 @@
 #include <string.h>
 
 struct pins {
-    uint32_t *pin;      /* [points at first] the number of its place, by names; MESH_NONE: not held; owned */
-    double (*place)[4]; /* where they are held; owned */
-    uint32_t *point;    /* [count] owned, with room for what cuts make of them, */
-    uint32_t *at;       /* [count] and the number of its place; likewise */
-    uint32_t count;
-    uint64_t let_go; /* 1: they are held no longer */
+    struct patch patch;
+    double (*place)[4]; /* [patch.first] where they are held; owned */
+    uint64_t let_go;    /* 1: they are held no longer */
 };
 
 static bool wanted(const struct scene_balloon *balloon)
@@ -22,63 +19,21 @@ static bool wanted(const struct scene_balloon *balloon)
     return balloon->pins.on;
 }
 
-/* What a cut has made of a point that is held is held there, too. */
-static void hold_point(const struct sim_balloon *b, uint32_t point)
-{
-    struct pins *pins = b->pins;
-    const struct topology *top = b->topology;
-    const uint32_t name = reorder_name(b, point), pin = pins->pin[top ? top->family[name] : name];
-    if (pin == MESH_NONE)
-        return;
-    pins->point[pins->count] = point;
-    pins->at[pins->count++] = pin;
-}
-
-void pins_hold_copy(const struct sim_balloon *b, uint32_t copy)
-{
-    if (b->pins)
-        hold_point(b, copy);
-}
-
-static void find_held(const struct sim_balloon *b)
-{
-    b->pins->count = 0;
-    for (uint32_t p = b->point_begin; p < b->point_end; p++)
-        hold_point(b, p);
-}
-
-static bool make_tables(struct sim *sim, const struct sim_balloon *b, const uint32_t *patch, uint32_t count)
-{
-    struct pins *pins = b->pins;
-    const uint32_t points = b->point_end - b->point_begin, room = count + b->point_room - b->point_end;
-    pins->pin = sim_table(sim, points, sizeof *pins->pin);
-    pins->place = sim_table(sim, count, sizeof *pins->place);
-    pins->point = sim_table(sim, room, sizeof *pins->point);
-    pins->at = sim_table(sim, room, sizeof *pins->at);
-    if (!pins->pin || !pins->place || !pins->point || !pins->at)
-        return false;
-    memset(pins->pin, 0xff, points * sizeof *pins->pin); /* MESH_NONE */
-    for (uint32_t i = 0; i < count; i++) {
-        pins->pin[patch[i] - b->point_begin] = i;
-        memcpy(pins->place[i], sim->position[patch[i]], sizeof pins->place[i]);
-    }
-    return true;
-}
-
 static enum status open(struct sim *sim, struct sim_balloon *b, struct error *err)
 {
     b->pins = calloc(1, sizeof *b->pins);
     if (!b->pins)
         return error_no_memory(err, "the pins");
-    uint32_t *patch = NULL, count;
-    enum status status = patch_find(sim, b, b->scene->pins.place, b->scene->pins.reach, &patch, &count, err);
-    if (!status && !make_tables(sim, b, patch, count))
-        status = error_no_memory(err, "the pins");
-    free(patch);
+    struct patch *patch = &b->pins->patch;
+    enum status status = patch_open(sim, b, b->scene->pins.place, b->scene->pins.reach, "the pins", patch,
+                                    err);
     if (status)
         return status;
-    sim->bytes -= count * sizeof *patch; /* which is not kept */
-    find_held(b);
+    b->pins->place = sim_table(sim, patch->first, sizeof *b->pins->place);
+    if (!b->pins->place)
+        return error_no_memory(err, "the pins");
+    for (uint32_t k = 0; k < patch->first; k++)
+        memcpy(b->pins->place[k], sim->position[patch->point[k]], sizeof *b->pins->place);
     b->pins->let_go = b->scene->pins.until <= 0;
     return STATUS_OK;
 }
@@ -87,10 +42,8 @@ static void close(struct sim *sim, struct sim_balloon *b)
 {
     (void)sim;
     if (b->pins) {
-        free(b->pins->pin);
+        patch_clear(&b->pins->patch);
         free(b->pins->place);
-        free(b->pins->point);
-        free(b->pins->at);
     }
     free(b->pins);
     b->pins = NULL;
@@ -98,16 +51,16 @@ static void close(struct sim *sim, struct sim_balloon *b)
 
 static void hold(const struct pins *pins, double (*rows)[4])
 {
-    for (uint32_t i = 0; i < pins->count && !pins->let_go; i++)
-        memset(rows[pins->point[i]], 0, sizeof *rows);
+    for (uint32_t k = 0; k < pins->patch.count && !pins->let_go; k++)
+        memset(rows[pins->patch.point[k]], 0, sizeof *rows);
 }
 
 void pins_mark(const struct sim *sim, unsigned char *held)
 {
     for (size_t k = 0; k < sim->balloon_count; k++) {
         const struct pins *pins = sim->balloons[k].pins;
-        for (uint32_t i = 0; pins && !pins->let_go && i < pins->count; i++)
-            held[pins->point[i]] = 1;
+        for (uint32_t i = 0; pins && !pins->let_go && i < pins->patch.count; i++)
+            held[pins->patch.point[i]] = 1;
     }
 }
 
@@ -140,9 +93,10 @@ static void after(struct sim *sim, struct sim_balloon *b)
     struct pins *pins = b->pins;
     if (pins->let_go)
         return;
-    for (uint32_t i = 0; i < pins->count; i++) {
-        memcpy(sim->position[pins->point[i]], pins->place[pins->at[i]], sizeof *pins->place);
-        memset(sim->velocity[pins->point[i]], 0, sizeof *sim->velocity);
+    for (uint32_t k = 0; k < pins->patch.count; k++) {
+        const uint32_t p = pins->patch.point[k];
+        memcpy(sim->position[p], pins->place[pins->patch.of[k]], sizeof *pins->place);
+        memset(sim->velocity[p], 0, sizeof *sim->velocity);
     }
     if (sim->time >= b->scene->pins.until) {
         pins->let_go = 1;
@@ -156,11 +110,20 @@ static double due(const struct sim_balloon *b)
     return b->scene->pins.until;
 }
 
+/* What a cut has made of a point that is held is held there, too. */
+static void copied(struct sim *sim, struct sim_balloon *b, uint32_t point, uint32_t copy, double share)
+{
+    (void)sim;
+    (void)point;
+    (void)share;
+    patch_copied(&b->pins->patch, b, copy);
+}
+
 static void reorder(struct sim *sim, struct sim_balloon *b, const struct reorder *how)
 {
     (void)sim;
     if (how->balloon == b)
-        find_held(b);
+        patch_reorder(&b->pins->patch, b);
 }
 
 static size_t blocks(struct sim *sim, struct sim_balloon *b, struct sim_block *list)
@@ -179,6 +142,7 @@ const struct effect effect_pins = {.name = "pins",
                                    .after = after,
                                    .due = due,
                                    .blocks = blocks,
+                                   .copied = copied,
                                    .reorder = reorder,
                                    .product = product,
                                    .source = "points of infinite mass"};

@@ -17,8 +17,7 @@
 
 struct string {
     const struct scene_string *scene;
-    uint32_t *point; /* [count] owned */
-    uint32_t count;
+    struct patch patch;
     double length;
     double end[3]; /* where it is held, without a weight */
     double weight; /* at that end; 0 where the string, which never pulls, carries none */
@@ -31,12 +30,27 @@ static bool wanted(const struct scene_balloon *balloon)
     return balloon->string.on;
 }
 
-static void mean_of(const struct string *string, double (*rows)[4], double mean[3])
+/* Of a row a point: of those that cuts made of one, by their shares. */
+static void mean_of(const struct sim *sim, const struct string *string, double (*rows)[4], double mean[3])
 {
-    for (int i = 0; i < 3; i++) {
-        mean[i] = 0;
-        for (uint32_t k = 0; k < string->count; k++)
-            mean[i] += rows[string->point[k]][i] / string->count;
+    const struct patch *patch = &string->patch;
+    mean[0] = mean[1] = mean[2] = 0;
+    for (uint32_t k = 0; k < patch->count; k++) {
+        const double share = patch_share(sim, patch, k);
+        for (int i = 0; i < 3; i++)
+            mean[i] += share * rows[patch->point[k]][i] / patch->first;
+    }
+}
+
+/* rows += the force at that mean, alike on each point. */
+static void add_to_patch(const struct sim *sim, const struct string *string, const double force[3],
+                         double (*rows)[4])
+{
+    const struct patch *patch = &string->patch;
+    for (uint32_t k = 0; k < patch->count; k++) {
+        const double share = patch_share(sim, patch, k);
+        for (int i = 0; i < 3; i++)
+            rows[patch->point[k]][i] += share * force[i] / patch->first;
     }
 }
 
@@ -48,14 +62,14 @@ static enum status open(struct sim *sim, struct sim_balloon *b, struct error *er
     string->scene = &b->scene->string;
     if (string->scene->stiffness > 0 || string->scene->damping > 0)
         string->weight = string->scene->weight;
-    enum status status = patch_find(sim, b, string->scene->place, string->scene->reach, &string->point,
-                                    &string->count, err);
+    enum status status = patch_open(sim, b, string->scene->place, string->scene->reach, "the string",
+                                    &string->patch, err);
     if (!status && string->weight > 0)
         status = sim_add_body(sim, b, &string->scalar, err);
     if (status)
         return status;
     double mean[3];
-    mean_of(string, sim->position, mean);
+    mean_of(sim, string, sim->position, mean);
     for (int i = 0; i < 3; i++)
         string->end[i] = b->centre[i] + string->scene->to[i] * b->radius;
     string->length = string->scene->slack * vec3_distance(mean, string->end);
@@ -68,7 +82,7 @@ static void close(struct sim *sim, struct sim_balloon *b)
 {
     (void)sim;
     if (b->string)
-        free(b->string->point);
+        patch_clear(&b->string->patch);
     free(b->string);
     b->string = NULL;
 }
@@ -85,8 +99,8 @@ static struct pull pull_of(const struct sim *sim, const struct string *string)
     const double *end = weight ? &sim->scalar[string->scalar + SIM_BODY_PLACE] : string->end;
     struct pull pull;
     double l[3];
-    mean_of(string, sim->position, l);
-    mean_of(string, sim->velocity, pull.speed);
+    mean_of(sim, string, sim->position, l);
+    mean_of(sim, string, sim->velocity, pull.speed);
     vec3_sub(l, end, l);
     pull.length = vec3_length(l);
     for (int i = 0; i < 3; i++) {
@@ -105,7 +119,7 @@ bool string_ends(const struct sim *sim, const struct sim_balloon *b, double skin
     const struct string *string = b->string;
     if (!string)
         return false;
-    mean_of(string, sim->position, skin);
+    mean_of(sim, string, sim->position, skin);
     memcpy(end, string->weight > 0 ? &sim->scalar[string->scalar + SIM_BODY_PLACE] : string->end,
            sizeof string->end);
     return true;
@@ -115,9 +129,10 @@ static void apply(struct sim *sim, struct sim_balloon *b)
 {
     const struct string *string = b->string;
     const struct pull pull = pull_of(sim, string);
-    for (uint32_t k = 0; k < string->count; k++)
-        for (int i = 0; i < 3; i++)
-            sim->force[string->point[k]][i] -= pull.tension * pull.along[i] / string->count;
+    double force[3];
+    for (int i = 0; i < 3; i++)
+        force[i] = -(pull.tension * pull.along[i]);
+    add_to_patch(sim, string, force, sim->force);
     if (string->weight == 0)
         return;
     double *rate = &sim->scalar_rate[string->scalar], *scalar = &sim->scalar[string->scalar];
@@ -137,18 +152,18 @@ static void product(struct sim *sim, struct sim_balloon *b, double a, double (*d
     const struct pull pull = pull_of(sim, string);
     if (pull.tension == 0)
         return;
-    double dl[3], ds[3], du[3];
-    mean_of(string, dx, dl);
-    mean_of(string, dv, ds);
+    double dl[3], ds[3], du[3], change[3];
+    mean_of(sim, string, dx, dl);
+    mean_of(sim, string, dv, ds);
     const double stretch = vec3_dot(pull.along, dl);
     for (int i = 0; i < 3; i++)
         du[i] = (dl[i] - pull.along[i] * stretch) / pull.length;
     const double dt = a * (string->scene->stiffness * stretch +
                            string->scene->damping * vec3_dot(pull.speed, du)) +
                       f * string->scene->damping * vec3_dot(pull.along, ds);
-    for (uint32_t k = 0; k < string->count; k++)
-        for (int i = 0; i < 3; i++)
-            df[string->point[k]][i] -= (dt * pull.along[i] + a * pull.tension * du[i]) / string->count;
+    for (int i = 0; i < 3; i++)
+        change[i] = -(dt * pull.along[i] + a * pull.tension * du[i]);
+    add_to_patch(sim, string, change, df);
 }
 
 /* By how much of its length a string may be shorter and be taut soon. */
@@ -171,9 +186,9 @@ static void bound(const struct sim *sim, const struct sim_balloon *b, const stru
     string->bounded = soon(sim, &pull) >= (1 - near) * string->length;
     if (!string->bounded)
         return;
-    for (uint32_t k = 0; k < string->count; k++) {
-        const uint32_t p = string->point[k];
-        const double share = 1.0 / string->count,
+    for (uint32_t k = 0; k < string->patch.count; k++) {
+        const uint32_t p = string->patch.point[k];
+        const double share = patch_share(sim, &string->patch, k) / string->patch.first,
                      more = string->weight > 0 ? sim->mass[p] / string->weight : 0;
         rows->stiffness[p] += 2 * string->scene->stiffness * (share + more);
         rows->damping[p] += 2 * string->scene->damping * (share + more);
@@ -204,10 +219,19 @@ static void after(struct sim *sim, struct sim_balloon *b)
         guard_bound_outdated(sim);
 }
 
+static void copied(struct sim *sim, struct sim_balloon *b, uint32_t point, uint32_t copy, double share)
+{
+    (void)sim;
+    (void)point;
+    (void)share;
+    patch_copied(&b->string->patch, b, copy);
+}
+
 static void reorder(struct sim *sim, struct sim_balloon *b, const struct reorder *how)
 {
     (void)sim;
-    reorder_points(how, b->string->point, b->string->count);
+    if (how->balloon == b)
+        patch_reorder(&b->string->patch, b);
 }
 
 static size_t blocks(struct sim *sim, struct sim_balloon *b, struct sim_block *list)
@@ -264,6 +288,7 @@ const struct effect effect_string = {.name = "string",
                                      .apply = apply,
                                      .after = after,
                                      .blocks = blocks,
+                                     .copied = copied,
                                      .reorder = reorder,
                                      .product = product,
                                      .bound = bound,

@@ -151,6 +151,16 @@ void effects_finish_forces(struct sim *sim, const struct sim_part *part, size_t 
     finish_part(sim, part, &(struct unfinished){first, sim->hook_count[EFFECT_FORCES]});
 }
 
+void effects_copied(struct sim *sim, const struct sim_balloon *balloon, uint32_t point, uint32_t copy,
+                    double share)
+{
+    for (size_t i = 0; i < sim->hook_count[EFFECT_FORCES]; i++) {
+        const struct effect_hook *hook = &sim->hooks[EFFECT_FORCES][i];
+        if (hook->effect->copied && hook->balloon == balloon)
+            hook->effect->copied(sim, hook->balloon, point, copy, share);
+    }
+}
+
 static void after_forces(struct sim *sim)
 {
     for (size_t i = 0; i < sim->hook_count[EFFECT_FORCES]; i++)

@@ -5,6 +5,7 @@
 #include "sim/areas.h"
 #include "sim/effect_gas.h"
 #include "sim/gas_law.h"
+#include "sim/patch.h"
 
 /* Its scalars. */
 enum { GAS_AMOUNT, GAS_ENTROPY, GAS_BROUGHT, GAS_SCALARS };
@@ -25,9 +26,8 @@ struct gas {
     double down[3]; /* acceleration of gravity, where the air has weight */
     struct gas_holes holes;
     struct gas_torn *torn; /* where edges let go (gas_torn.h); NULL: the skin tears along cracks */
-    uint32_t *neck;        /* [neck_count] points that feel its thrust; owned */
-    uint32_t neck_count;
-    unsigned char *held; /* [points] of the balloon: 0 where a piece has fallen off; owned */
+    struct patch neck;     /* points that feel its thrust; empty where there is none */
+    unsigned char *held;   /* [points] of the balloon: 0 where a piece has fallen off; owned */
 
     /* By the last sim_forces(); the thrust beyond the missing pressure on a unit of a hole's
      * area, and that of the neck. */

@@ -2,7 +2,6 @@
 #include "common/vec3.h"
 #include "sim/gas.h"
 #include "sim/gas_torn.h"
-#include "sim/patch.h"
 
 #include <string.h>
 
@@ -127,14 +126,15 @@ static void add_thrust(const struct sim *sim, const struct sim_balloon *balloon,
             force[k] = gas->rim_thrust * holes->area[h][k] / holes->sides[h];
         add(context, balloon->rims->side[i][0], force);
     }
-    for (uint32_t i = 0; i < gas->neck_count; i++)
+    for (uint32_t i = 0; i < gas->neck.count; i++)
         for (int k = 0; k < 3; k++)
-            out[k] += sim->normal[gas->neck[i]][k];
+            out[k] += sim->normal[gas->neck.point[i]][k];
     const double length = vec3_length(out);
-    for (uint32_t i = 0; i < gas->neck_count && length > 0; i++) {
+    for (uint32_t i = 0; i < gas->neck.count && length > 0; i++) {
         for (int k = 0; k < 3; k++)
-            force[k] = -gas->neck_thrust * out[k] / length / gas->neck_count;
-        add(context, gas->neck[i], force);
+            force[k] = -gas->neck_thrust * out[k] / length / gas->neck.first *
+                       patch_share(sim, &gas->neck, i);
+        add(context, gas->neck.point[i], force);
     }
 }
 
@@ -204,6 +204,5 @@ enum status gas_find_neck(struct sim *sim, const struct sim_balloon *balloon, st
 {
     struct gas *gas = balloon->gas;
     const double reach = sqrt(gas->scene->neck / M_PI) / balloon->radius * 180 / M_PI;
-    return patch_find(sim, balloon, gas->scene->neck_place, fmin(reach, 90), &gas->neck, &gas->neck_count,
-                      err);
+    return patch_open(sim, balloon, gas->scene->neck_place, fmin(reach, 90), "the neck", &gas->neck, err);
 }

@@ -96,6 +96,22 @@ static void bound(const struct sim *sim, const struct sim_balloon *balloon, cons
     }
 }
 
+/* Both fingers together are as strong as the one was, each by its point's mass. */
+static void copied(struct sim *sim, struct sim_balloon *balloon, uint32_t point, uint32_t copy, double share)
+{
+    (void)balloon;
+    struct hand *hand = sim->hand;
+    for (uint32_t f = 0; f < hand->count; f++)
+        if (hand->finger[f].point == point) {
+            struct hand_finger *other = &hand->finger[hand->count++];
+            *other = hand->finger[f];
+            other->point = copy;
+            other->stiffness *= share;
+            hand->finger[f].stiffness -= other->stiffness;
+            return;
+        }
+}
+
 static void reorder(struct sim *sim, struct sim_balloon *balloon, const struct reorder *how)
 {
     (void)balloon;
@@ -109,6 +125,7 @@ static const struct effect effect_hand = {.name = "hand",
                                           .apply = apply,
                                           .product = product,
                                           .bound = bound,
+                                          .copied = copied,
                                           .reorder = reorder,
                                           .source = "a spring a point"};
 

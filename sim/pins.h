@@ -7,9 +7,6 @@
 /* Sets held[p] to 1 for each point that is held now; [point_count]. */
 void pins_mark(const struct sim *sim, unsigned char *held);
 
-/* A cut has made a copy of a point: held, too, if that is. Without pins nothing happens. */
-void pins_hold_copy(const struct sim_balloon *balloon, uint32_t copy);
-
 /* Sets the rows of those points to 0: of changes of places or speeds; [point_count]. */
 void pins_hold(const struct sim *sim, double (*rows)[4]);
 

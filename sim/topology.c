@@ -1,9 +1,8 @@
 #include "common/vec3.h"
-#include "sim/effect_gas.h"
+#include "sim/effects.h"
 #include "sim/guard.h"
 #include "sim/measure.h"
 #include "sim/membrane.h"
-#include "sim/pins.h"
 #include "sim/reorder.h"
 
 #include <stdlib.h>
@@ -217,10 +216,9 @@ static uint32_t copy_point(struct sim *sim, struct sim_balloon *b, uint32_t poin
             sim->scratch[s][copy][i] = sim->scratch[s][point][i];
     }
     memcpy(top->rest[copy - b->point_begin], top->rest[point - b->point_begin], sizeof *top->rest);
-    gas_hold_copy(b, point, copy);
-    pins_hold_copy(b, copy);
     sim->mass[copy] = sim->mass[point] * share;
     sim->mass[point] -= sim->mass[copy];
+    effects_copied(sim, b, point, copy, share);
     parts_extend(top->tail, b->point_end, b->edge_end);
     return copy;
 }
