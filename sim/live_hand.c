@@ -2,6 +2,7 @@
 #include "common/array.h"
 #include "common/vec3.h"
 #include "sim/guard.h"
+#include "sim/pins.h"
 #include "sim/reorder.h"
 
 #include <stdlib.h>
@@ -73,6 +74,7 @@ static void apply(struct sim *sim, struct sim_balloon *balloon)
         for (int i = 0; i < 3; i++)
             sim->force[hand->finger[f].point][i] += hand->finger[f].stiffness * pull[i];
     }
+    pins_hold(sim, sim->force); /* which had their turn before the hand */
 }
 
 static void product(struct sim *sim, struct sim_balloon *balloon, double a, double (*dx)[4], double b,
@@ -82,6 +84,7 @@ static void product(struct sim *sim, struct sim_balloon *balloon, double a, doub
     for (const struct hand_finger *f = sim->hand->finger; f < sim->hand->finger + sim->hand->count; f++)
         for (int i = 0; i < 3; i++)
             df[f->point][i] -= a * f->stiffness * dx[f->point][i];
+    pins_hold(sim, df);
 }
 
 static void bound(const struct sim *sim, const struct sim_balloon *balloon, const struct guard_rows *rows)

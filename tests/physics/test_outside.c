@@ -2,6 +2,8 @@
 #include "common/vec3.h"
 #include "sim/effect_gas.h"
 #include "sim/guard.h"
+#include "sim/jacobian.h"
+#include "sim/live_hand.h"
 #include "unit/books.h"
 
 /* A balloon that nothing inflates and nothing breaks. */
@@ -169,6 +171,34 @@ static void pins_hold_until_they_let_go(void **state)
     }
 }
 
+/* Neither its force nor what that changes by: a skin that is all held feels nothing of it. */
+static void the_hand_does_not_move_what_pins_hold(void **state)
+{
+    (void)state;
+    struct balloon b;
+    struct hand hand;
+    struct hand_hit hit;
+    struct error err = {0};
+    open_balloon(&b, 2, QUIET("balloons[0].pins.reach=180"));
+    double(*change)[4] = calloc(b.sim.point_count, sizeof *change);
+    assert_ok(hand_open(&hand, &b.sim, &err), &err);
+    assert_true(hand_find(&b.sim, (const double[3]){1, 2, 500}, (const double[3]){0, 0, -1}, &hit));
+    hand_take(&hand, &b.sim, &hit);
+    hand_move(&hand, &b.sim, (const double[3]){hit.place[0], hit.place[1], hit.place[2] + 20});
+    sim_forces(&b.sim);
+    assert_ok(sim_jacobian_open(&b.sim, &err), &err);
+    sim_linearise(&b.sim);
+    sim_force_product(&b.sim, 1, b.sim.position, 1, b.sim.position, change);
+    sim_jacobian_close(&b.sim);
+    for (uint32_t p = 0; p < b.sim.point_count; p++) {
+        assert_true(vec3_length(b.sim.force[p]) == 0);
+        assert_true(vec3_length(change[p]) == 0);
+    }
+    free(change);
+    hand_close(&hand, &b.sim);
+    close_balloon(&b);
+}
+
 /* A balloon on a string in the wind of its own weight: it hangs from the string's end with the tension M g,
  * the string longer by M g/k: after the swinging has died down by damping, to a thousandth. */
 static void it_hangs_on_its_string(void **state)
@@ -322,6 +352,7 @@ int main(void)
         cmocka_unit_test(wind_carries_it_along),
         cmocka_unit_test(wind_is_the_same_to_the_bit_on_any_number_of_workers),
         cmocka_unit_test(pins_hold_until_they_let_go),
+        cmocka_unit_test(the_hand_does_not_move_what_pins_hold),
         cmocka_unit_test(it_hangs_on_its_string),
         cmocka_unit_test(a_slack_string_asks_for_no_shorter_steps),
         cmocka_unit_test(a_weight_and_its_balloon_fall_as_one),
