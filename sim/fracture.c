@@ -221,8 +221,8 @@ static void tension_at(const struct sim *sim, const struct sim_balloon *b, uint3
                        v * (rest[p[2] - b->point_begin][i] - rest[p[0] - b->point_begin][i]);
 }
 
-/* A slit at a point across the largest tension. */
-static void open_at(struct sim *sim, struct sim_balloon *b, uint32_t point, double half_length)
+/* A slit at a point across the largest tension. Returns the cuts. */
+static uint32_t open_at(struct sim *sim, struct sim_balloon *b, uint32_t point, double half_length)
 {
     struct fracture *f = b->fracture;
     double tension[3], across[3], twice[3];
@@ -234,20 +234,23 @@ static void open_at(struct sim *sim, struct sim_balloon *b, uint32_t point, doub
     vec3_cross(twice, tension, across);
     if (f->now.births < BIRTHS_MAX)
         memcpy(f->births[f->now.births++], rest[point - b->point_begin], sizeof *f->births);
-    fracture_slit(sim, b, point, across, half_length);
+    return fracture_slit(sim, b, point, across, half_length);
 }
 
-void fracture_prick(struct sim *sim, struct sim_balloon *b, const double place[3])
+const char *fracture_prick(struct sim *sim, struct sim_balloon *b, const double place[3])
 {
     uint32_t nearest = b->point_begin;
     for (uint32_t p = b->point_begin; p < b->point_end; p++)
         if (vec3_distance(sim->position[p], place) < vec3_distance(sim->position[nearest], place))
             nearest = p;
-    if (is_near_birth(b, b->topology->rest[nearest - b->point_begin], 0.15) || !topology_can_cut(sim, b))
-        return; /* the needle is still in the hole that it made */
+    if (is_near_birth(b, b->topology->rest[nearest - b->point_begin], 0.15))
+        return "A hole began within 0.15 radii of here: click further from it."; /* a needle is still in it */
+    if (!topology_can_cut(sim, b))
+        return "The skin has no room for further cuts: give fracture.reserve more radii.";
     b->fracture->stamps++;
-    open_at(sim, b, nearest, 0.075 * b->fracture->radius);
+    const uint32_t cuts = open_at(sim, b, nearest, 0.075 * b->fracture->radius);
     fracture_tell_gas(sim, b);
+    return cuts > 0 ? NULL : "Nothing can be cut here: what is left of the skin is too small.";
 }
 
 /* At the point at rest that lies most nearly in the direction of place. */
@@ -292,16 +295,15 @@ void fracture_restored(struct sim *sim, struct sim_balloon *b)
     fracture_tell_gas(sim, b);
 }
 
-void sim_prick(struct sim *sim, uint32_t triangle, const double place[3])
+const char *sim_prick(struct sim *sim, uint32_t triangle, const double place[3])
 {
     struct sim_balloon *b = sim_balloon_of(sim, triangle);
-    if (b->fracture) {
-        fracture_prick(sim, b, place);
-        return;
-    }
+    if (b->fracture)
+        return fracture_prick(sim, b, place);
     for (int k = 0; k < 3; k++)
         if (sim->edge_active[sim->triangle_edge[triangle][k]])
             sim_break_edge(sim, sim->triangle_edge[triangle][k]);
+    return NULL;
 }
 
 static void births(struct sim *sim, struct sim_balloon *b)

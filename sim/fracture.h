@@ -82,8 +82,8 @@ uint32_t fracture_slit(struct sim *sim, struct sim_balloon *balloon, uint32_t po
                        const double direction[3], double half_length);
 
 /* What a needle's touch or a click does: a slit of 0.15 R at the balloon's point nearest to a place as the
- * skin is now, across the largest tension there. */
-void fracture_prick(struct sim *sim, struct sim_balloon *balloon, const double place[3]);
+ * skin is now, across the largest tension there. NULL, or why nothing was cut. */
+const char *fracture_prick(struct sim *sim, struct sim_balloon *balloon, const double place[3]);
 
 /* The scene's rip as a slit. Returns the cuts. */
 uint32_t fracture_rip(struct sim *sim, struct sim_balloon *balloon);

@@ -215,11 +215,12 @@ void live_restart(struct live *live)
     live->paused = false;
 }
 
-void live_prick(struct live *live, const struct hand_hit *hit)
+const char *live_prick(struct live *live, const struct hand_hit *hit)
 {
     struct sim *sim = live->sim;
     go_on_from_here(live);
-    sim_prick(sim, hit->triangle, hit->place);
+    const char *why_not = sim_prick(sim, hit->triangle, hit->place);
     if (!sim_balloon_of(sim, hit->triangle)->fracture)
         sim_drop_triangle(sim, hit->triangle); /* also while nothing steps */
+    return why_not;
 }

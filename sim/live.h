@@ -79,7 +79,7 @@ void live_restart(struct live *live);
 /* The mean length of the edges that hold, over their mean rest length; NAN where none does. */
 double live_stretch(const struct live *live);
 
-/* Breaks the skin where it is hit. */
-void live_prick(struct live *live, const struct hand_hit *hit);
+/* Breaks the skin where it is hit. NULL, or a sentence that says why not. */
+const char *live_prick(struct live *live, const struct hand_hit *hit);
 
 #endif

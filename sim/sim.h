@@ -324,8 +324,8 @@ enum status state_open(struct sim *sim, struct error *err);
 bool sim_restored(struct sim *sim);
 
 /* What a needle's point does to a triangle that it meets at a place: a slit, or in the paper's
- * skin its edges let go. */
-void sim_prick(struct sim *sim, uint32_t triangle, const double place[3]);
+ * skin its edges let go. NULL, or why nothing came of it, a sentence for whoever clicked. */
+const char *sim_prick(struct sim *sim, uint32_t triangle, const double place[3]);
 
 /* How many of the scalars are the state's own: those after them only record, and are not hashed. */
 uint32_t sim_state_scalars(const struct sim *sim);

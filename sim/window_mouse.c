@@ -87,7 +87,9 @@ static void prick(struct app *app)
     struct hand_hit hit;
     if (!find(app, app->x, app->y, &hit))
         return;
-    live_prick(&app->live, &hit);
+    const char *why_not = live_prick(&app->live, &hit);
+    if (why_not)
+        app_say(app, why_not);
     app->touched = app->stale = true;
 }
 

@@ -117,6 +117,29 @@ static void that_the_skin_tears_is_told_once(void **unused)
     }
 }
 
+/* A second click beside the first one's hole cuts nothing, and says why; one that is far away does. */
+static void a_click_that_cuts_nothing_says_why(void **unused)
+{
+    (void)unused;
+    struct inflated it;
+    const double place[] = {0, 0, 1.5}, beside[] = {0.1, 0, 1.5}, away[] = {0, 1.5, 0};
+    inflate(&it, &(struct inflation){.level = 3, .stretch = 1.5});
+    assert_null(sim_prick(&it.sim, 0, place));
+    const uint32_t cuts = it.balloon->topology->now.edges;
+    assert_true(cuts > 0);
+    assert_non_null(strstr(sim_prick(&it.sim, 0, beside), "0.15 radii"));
+    assert_int_equal(it.balloon->topology->now.edges, cuts);
+    assert_null(sim_prick(&it.sim, 0, away));
+    assert_true(it.balloon->topology->now.edges > cuts);
+    deflate(&it);
+    inflate(&it, &(struct inflation){.level = 3, .stretch = 1.5, .keys = {"balloons[0].fracture.reserve=1"}});
+    for (uint32_t t = 0; topology_can_cut(&it.sim, it.balloon); t++)
+        if (it.balloon->topology->neighbour[t][0] != MESH_NONE)
+            topology_cut(&it.sim, it.balloon, t, 0);
+    assert_non_null(strstr(sim_prick(&it.sim, 0, place), "fracture.reserve"));
+    deflate(&it);
+}
+
 /* A state in the middle of a burst, put back after the burst has gone on. */
 static void a_burst_goes_on_from_its_blocks(void **unused)
 {
@@ -168,6 +191,7 @@ int main(void)
         cmocka_unit_test(below_its_strength_nothing_tears),
         cmocka_unit_test(one_seed_is_one_burst_for_any_number_of_workers),
         cmocka_unit_test(that_the_skin_tears_is_told_once),
+        cmocka_unit_test(a_click_that_cuts_nothing_says_why),
         cmocka_unit_test(a_burst_goes_on_from_its_blocks),
         cmocka_unit_test(momentum_and_mass_are_kept_through_a_burst),
     };

@@ -13,6 +13,10 @@ sleep 1
 pause
 click 400 300
 picture hole
+command -v import >/dev/null && import -window "$window" -crop 500x25+0+52 +repage silent.ppm
+click 402 300
+command -v import >/dev/null && import -window "$window" -crop 500x25+0+52 +repage told.ppm
+[ -e told.ppm ] && cmp -s told.ppm silent.ppm && fail "that a click beside a hole does nothing is not said"
 steps 60
 picture torn
 quit
