@@ -23,7 +23,7 @@
       "what ground, obstacles and contact add by turning skin back at their ends",                        \
       "")                                                                                                 \
     X(guard, CHOICE, 0, 0, "\"substep\"", "", 0,                                                          \
-      "steps that are not surely stable: split them, refuse them, or let them go", "")
+      "steps that are not surely stable: split them, refuse them, or let them go and say so", "")
 
 #define SCENE_VIEW_FIELDS(X)                                                                                 \
     X(size, SIZE, 16, 16384, "[1280, 480]", "pixels", FREE, "width and height of the whole picture", "")     \

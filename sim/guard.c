@@ -235,6 +235,12 @@ enum status guard_step(struct sim *sim, bool first, struct error *err)
     return STATUS_OK;
 }
 
+double guard_passed(const struct sim *sim)
+{
+    const double more = parts_needed(sim) / sim->substeps;
+    return sim->scene->time.guard == SCENE_GUARD_OFF && more > 1 ? more : 0;
+}
+
 /* The most kinetic energy that numbers which do not run away have. */
 static double most_energy(const struct guard_memory *memory)
 {

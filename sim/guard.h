@@ -93,6 +93,10 @@ enum status guard_step(struct sim *sim, bool first, struct error *err);
  * since its springs let go. */
 enum status guard_check(struct sim *sim, struct error *err);
 
+/* Into how many times as many parts a step would have to be split, where time.guard = "off" lets it go that
+ * is larger than what is surely stable; 0: it is not. */
+double guard_passed(const struct sim *sim);
+
 /* In words: "time.step 0.25 is split in 14: steps up to 0.0182 are surely stable for symplectic-euler; the
  * dampers of balloons[0] ask for most of that". Of a step that needs no split: only what is stable. */
 void guard_describe(struct sim *sim, char *text, size_t size);

@@ -28,6 +28,19 @@ static void note_method(struct news *news, struct sim *sim)
     }
 }
 
+static void note_passed(struct news *news, struct sim *sim)
+{
+    char text[256], line[LINE_SIZE];
+    const double passed = guard_passed(sim);
+    if (!(passed >= 10 * news->passed && passed > 0))
+        return;
+    guard_describe(sim, text, sizeof text);
+    const int used = sim->steps > 1 ? snprintf(line, sizeof line, "at %.4g s: ", sim->time) : 0;
+    snprintf(line + used, sizeof line - (size_t)used, "time.guard is off: %s", text);
+    note(news, sim->time, line);
+    news->passed = passed;
+}
+
 /* Says that a method which chooses its steps takes such short ones that it will hardly see the end, and again
  * when ten times as many are left. Some in a row count: the first few are always short, and one before an
  * event. */
@@ -64,6 +77,7 @@ void news_note(struct news *news, struct sim *sim)
 {
     char line[LINE_SIZE];
     note_method(news, sim);
+    note_passed(news, sim);
     note_pace(news, sim);
     for (size_t i = 0; i < sim->news_count; i++) {
         const struct sim_news *told = &sim->news[i];

@@ -25,7 +25,7 @@ wait $!
 [ "$(wc -l <table.tsv)" = 2 ] || fail "the table of the pieces did not come through the pipe"
 rm pipe table.tsv
 refused 1 '^balloon-sim: end.ply: no skin is left to be written at 0.1 s; give an earlier time.end, or --mesh-series$' \
-    balloon-sim m.ply $short -o end.ply --set balloons[0].threshold=1.001 --set balloons[0].pressure=1000
+    balloon-sim -q m.ply $short -o end.ply --set balloons[0].threshold=1.001 --set balloons[0].pressure=1000
 only_files m.ply frames log.tsv
 expect 1 sh -c 'balloon-sim "$@" >/dev/full' sh m.ply --hash $short
 stderr_has 'cannot write the results'

@@ -3,16 +3,16 @@ ply m.ply "$tetra_points" "$tetra_triangles"
 wild='--set time.step=1 --set time.end=1000 --set view.rate=1 --set view.size=[64,48] --set balloons[0].spring=1e9
     --set balloons[0].threshold=1e300'
 refused 3 'm.ply: diverged at time [0-9]+ \(step [0-9]+\): point [0-9]+ of balloons\[0\] is at .*time.step 1 is too large: steps up to .* surely stable for symplectic-euler; most of that is for the (springs|dampers)' \
-    balloon-sim m.ply $wild --log log.tsv --set balloons[0].damping=1e9
+    balloon-sim -q m.ply $wild --log log.tsv --set balloons[0].damping=1e9
 a_file log.tsv
-refused 3 'diverged at time' balloon-sim m.ply $wild --set balloons[0].damping=1e9 --frames frames --contact-sheet sheet.png
+refused 3 'diverged at time' balloon-sim -q m.ply $wild --set balloons[0].damping=1e9 --frames frames --contact-sheet sheet.png
 a_file frames/frame_0000.png
 refused 3 'diverged at time .*; what was logged and drawn could not be kept: /dev/full: cannot write: No space left on device$' \
-    balloon-sim m.ply $wild --set balloons[0].damping=1e9 --log /dev/full
+    balloon-sim -q m.ply $wild --set balloons[0].damping=1e9 --log /dev/full
 
 # what is left once edges let go is stable in any steps, and tells nothing of those before
 refused 3 'sphere.ply: diverged at time .*; what is left is stable in such steps, and time.guard = "off" asks for no more: try time.guard=substep$' \
-    balloon-sim "$PROGRAMS/data/sphere.ply" --set balloons[0].spring=1e9 --log log.tsv
+    balloon-sim -q "$PROGRAMS/data/sphere.ply" --set balloons[0].spring=1e9 --log log.tsv
 
 # gas that flows faster than a method follows does not become less than none
 ply tetra.ply "$tetra_points" "$tetra_triangles"
