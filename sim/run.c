@@ -85,17 +85,20 @@ static enum status look_up(struct run *run, struct error *err)
                      options->checkpoint ? options->checkpoint : "");
 }
 
-/* Says once that steps are too long for the frames that are wanted: a film is faster than it should be. */
+/* Says once that steps are too long for the frames that are wanted: a film is faster than it should be, a log
+ * has fewer rows. */
 static void note_missed(struct run *run)
 {
     const struct outputs *outputs = &run->outputs;
-    if (run->said_missed || outputs->missed == 0 || (!outputs->film && !outputs->series && !outputs->cache))
+    const bool films = outputs->film || outputs->series || outputs->cache;
+    if (run->said_missed || outputs->missed == 0 || (!films && !outputs->log))
         return;
     const double rate = run->sim->scene->view.rate;
-    command_note(
-        "at %.4g s: view.rate is %g frames a second, and steps are longer: each is one frame, and the film "
-        "is faster than it should be; take time.step=%.3g or less",
-        run->sim->time, rate, 1 / rate);
+    command_note("at %.4g s: view.rate is %g %s a second, and steps are longer: each is one %s; take "
+                 "time.step=%.3g or less",
+                 run->sim->time, rate, films ? "frames" : "rows",
+                 films ? "frame, and the film is faster than it should be" : "row, and the log has fewer",
+                 1 / rate);
     run->said_missed = true;
 }
 

@@ -75,6 +75,9 @@ done
 expect 0 balloon-sim m.ply $short --set time.step=0.025 --set view.rate=100 --mesh-series fast --log fast.tsv
 stderr_has '^balloon-sim: at 0.025 s: view.rate is 100 frames a second, and steps are longer: .*; take time.step=0.01 or less$'
 [ "$(grep -c view.rate .stderr)" = 1 ] && [ "$(wc -l <fast.tsv)" = 22 ] || fail "$(wc -l <fast.tsv) lines"
+expect 0 balloon-sim m.ply $short --set time.step=0.025 --set view.rate=100 --log fast.tsv
+stderr_has '^balloon-sim: at 0.025 s: view.rate is 100 rows a second, and steps are longer: .* the log has fewer; take time.step=0.01 or less$'
+[ "$(grep -c view.rate .stderr)" = 1 ] && [ "$(wc -l <fast.tsv)" = 22 ] || fail "$(wc -l <fast.tsv) lines"
 for dial in --set=time.step=0.01 --set=time.integrator=rk-adaptive; do
     expect 0 balloon-sim m.ply $short --set time.step=0.025 --set view.rate=100 "$dial" --mesh-series fast --log fast.tsv
     ! grep -q view.rate .stderr && [ "$(wc -l <fast.tsv)" = 52 ] || fail "$dial: $(wc -l <fast.tsv) lines, or it is said"

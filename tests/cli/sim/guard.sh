@@ -1,7 +1,7 @@
 # The guard splits a step that is too large and says so once; or refuses it; or lets it go, and what runs away is caught.
 ply m.ply "$tetra_points" "$tetra_triangles"
 large='--set time.step=1 --set time.end=4 --set balloons[0].threshold=1e300'
-expect 0 balloon-sim m.ply $large --set time.guard=substep --log log.tsv
+expect 0 balloon-sim m.ply $large --set time.guard=substep --set view.rate=1 --log log.tsv
 one_message
 stderr_has 'time.step 1 is split in [0-9]+: steps up to 0.0[0-9]+ are surely stable for symplectic-euler; most of that is for the (dampers|springs) at point [0-9]+ of balloons\[0\]$'
 stdout_has '^4 s in [0-9]{2,} steps'
