@@ -319,8 +319,9 @@ enum status scene_from_mesh(const char *mesh_path, struct scene *scene, struct e
  * relative to the current folder. */
 enum status scene_set(struct scene *scene, const char *assignment, struct error *err);
 
-/* What only the whole scene can tell: balloons without a mesh, a schedule for a balloon that is not there, an
- * end before the first step. Puts the schedule in the order of time. */
+/* What only the whole scene can tell: balloons without a mesh, blocks that contradict each other, a schedule
+ * for a balloon that is not there. Puts the schedule in the order of time. Errors: STATUS_NO_MEMORY, and
+ * STATUS_INPUT with FILE:LINE and the block. */
 enum status scene_check(struct scene *scene, struct error *err);
 
 /* What somebody wrote down, in the file or by scene_set(), and nothing goes by as the rest of the scene is:

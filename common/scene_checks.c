@@ -5,17 +5,29 @@
 #include <stdarg.h>
 #include <string.h>
 
-enum status scene_contradiction(const struct scene *scene, size_t number, const char *name, unsigned line,
-                                struct error *err, const char *format, ...)
+/* "FILE:LINE: ...", or without the line where that is 0. */
+__attribute__((format(printf, 4, 5))) static enum status refuse(const struct scene *scene, unsigned line,
+                                                                struct error *err, const char *format, ...)
 {
-    char text[256], place[32] = "";
+    char text[ERROR_TEXT_SIZE], place[16] = "";
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     if (line > 0)
         snprintf(place, sizeof place, ":%u", line);
-    return error_set(err, STATUS_INPUT, "%s%s: balloons[%zu].%s: %s", scene->path, place, number, name, text);
+    return error_set(err, STATUS_INPUT, "%s%s: %s", scene->path, place, text);
+}
+
+enum status scene_contradiction(const struct scene *scene, size_t number, const char *name, unsigned line,
+                                struct error *err, const char *format, ...)
+{
+    char text[256];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    return refuse(scene, line, err, "balloons[%zu].%s: %s", number, name, text);
 }
 
 bool scene_changes(const struct scene_schedule *entry, const char *key, size_t number)
@@ -132,46 +144,26 @@ enum status scene_check_places(const struct scene *scene, size_t number, struct 
     return STATUS_OK;
 }
 
-/* "FILE:LINE", or the file alone. */
-static void write_place(const struct scene *scene, unsigned line, char *text, size_t size)
-{
-    if (line > 0)
-        snprintf(text, size, "%s:%u", scene->path, line);
-    else
-        snprintf(text, size, "%s", scene->path);
-}
-
 enum status scene_check_surroundings(const struct scene *scene, struct error *err)
 {
-    char place[256];
     if (is_nowhere(scene->view.camera)) {
         const struct scene_block *view = scene_find_block("", "view");
         const int line = scene_line_of(view, &scene->view, scene_find_field(view, "camera"));
-        write_place(scene, line > 0 ? (unsigned)line : 0, place, sizeof place);
-        return error_set(err, STATUS_INPUT,
-                         "%s: view: the camera sees nothing: camera = [0, 0, 0] lies in its target; give "
-                         "where the eye is, seen from there, such as [0.0, 1.2, 8.0]",
-                         place);
+        return refuse(scene, line > 0 ? (unsigned)line : 0, err,
+                      "view: the camera sees nothing: camera = [0, 0, 0] lies in its target; give where the "
+                      "eye is, seen from there, such as [0.0, 1.2, 8.0]");
     }
-    if (scene->ground.on && is_nowhere(scene->ground.normal)) {
-        write_place(scene, scene->ground.line, place, sizeof place);
-        return error_set(err, STATUS_INPUT,
-                         "%s: ground: normal = [0, 0, 0] is no direction; level ground has [0.0, 1.0, 0.0]",
-                         place);
-    }
+    if (scene->ground.on && is_nowhere(scene->ground.normal))
+        return refuse(scene, scene->ground.line, err,
+                      "ground: normal = [0, 0, 0] is no direction; level ground has [0.0, 1.0, 0.0]");
     for (size_t i = 0; i < scene->needles_count; i++)
-        if (isnan(scene->needles[i].from[0])) {
-            write_place(scene, scene->needles[i].line, place, sizeof place);
-            return error_set(err, STATUS_INPUT,
-                             "%s: needles[%zu] names no point; give from = [x, y, z], where it is at first",
-                             place, i);
-        }
+        if (isnan(scene->needles[i].from[0]))
+            return refuse(scene, scene->needles[i].line, err,
+                          "needles[%zu] names no point; give from = [x, y, z], where it is at first", i);
     for (size_t i = 0; i < scene->schedule_count; i++)
-        if (scene->schedule[i].balloon >= (int)scene->balloon_count) {
-            write_place(scene, scene->schedule[i].line, place, sizeof place);
-            return error_set(err, STATUS_INPUT,
-                             "%s: schedule[%zu].balloon is %d, but the balloons are 0 to %zu", place, i,
-                             scene->schedule[i].balloon, scene->balloon_count - 1);
-        }
+        if (scene->schedule[i].balloon >= (int)scene->balloon_count)
+            return refuse(scene, scene->schedule[i].line, err,
+                          "schedule[%zu].balloon is %d, but the balloons are 0 to %zu", i,
+                          scene->schedule[i].balloon, scene->balloon_count - 1);
     return STATUS_OK;
 }
