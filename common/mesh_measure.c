@@ -6,6 +6,7 @@
 #include "common/mesh_measure.h"
 
 #include "common/array.h"
+#include "common/disjoint_sets.h"
 
 #include <stdlib.h>
 
@@ -22,25 +23,6 @@ struct groups {
     size_t components;
 };
 
-/* The representative of i's group, with the way there shortened by half (Tarjan and van Leeuwen, "Worst-case
- * analysis of set union algorithms", JACM 1984). */
-static uint32_t group_of(uint32_t *parent, uint32_t i)
-{
-    while (parent[i] != i) {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    return i;
-}
-
-static bool join(uint32_t *parent, uint32_t a, uint32_t b)
-{
-    a = group_of(parent, a);
-    b = group_of(parent, b);
-    parent[a < b ? b : a] = a < b ? a : b;
-    return a != b;
-}
-
 /* The corner of triangle t at point p, as 3 t + k. */
 static uint32_t corner_at(const struct mesh *mesh, uint32_t t, uint32_t p)
 {
@@ -50,10 +32,10 @@ static uint32_t corner_at(const struct mesh *mesh, uint32_t t, uint32_t p)
 static void join_neighbours(const struct mesh *mesh, struct groups *groups, uint32_t t, uint32_t other,
                             const uint32_t points[2])
 {
-    groups->components -= join(groups->triangle_parent, t, other);
+    groups->components -= sets_unite(groups->triangle_parent, t, other);
     for (int i = 0; i < 2; i++)
-        groups->fans[points[i]] -= join(groups->corner_parent, corner_at(mesh, t, points[i]),
-                                        corner_at(mesh, other, points[i]));
+        groups->fans[points[i]] -= sets_unite(groups->corner_parent, corner_at(mesh, t, points[i]),
+                                              corner_at(mesh, other, points[i]));
 }
 
 static void walk_sides(const struct mesh *mesh, struct groups *groups)

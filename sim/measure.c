@@ -1,28 +1,15 @@
 /* What the log tells about a state. */
 #include "sim/measure.h"
+#include "common/disjoint_sets.h"
 #include "common/vec3.h"
 #include "sim/fracture.h"
 #include "sim/membrane.h"
 
-/* Pieces are a forest over the edges, in which each active triangle joins its three: two triangles hang
- * together where they share an edge. */
-static uint32_t root_of(uint32_t *parent, uint32_t e)
-{
-    while (parent[e] != e)
-        e = parent[e] = parent[parent[e]];
-    return e;
-}
-
-static void join(uint32_t *parent, uint32_t a, uint32_t b)
-{
-    a = root_of(parent, a);
-    b = root_of(parent, b);
-    parent[a < b ? b : a] = a < b ? a : b;
-}
-
+/* Pieces are sets of edges, in which each active triangle joins its three: two triangles hang together where
+ * they share an edge. */
 uint32_t sim_piece_of(struct sim *sim, uint32_t t)
 {
-    return root_of(sim->piece, sim->triangle_edge[t][0]);
+    return sets_find(sim->piece, sim->triangle_edge[t][0]);
 }
 
 void sim_find_pieces(struct sim *sim)
@@ -31,8 +18,8 @@ void sim_find_pieces(struct sim *sim)
         sim->piece[e] = e;
     for (uint32_t t = 0; t < sim->triangle_count; t++)
         if (sim->triangle_active[t]) {
-            join(sim->piece, sim->triangle_edge[t][0], sim->triangle_edge[t][1]);
-            join(sim->piece, sim->triangle_edge[t][0], sim->triangle_edge[t][2]);
+            sets_unite(sim->piece, sim->triangle_edge[t][0], sim->triangle_edge[t][1]);
+            sets_unite(sim->piece, sim->triangle_edge[t][0], sim->triangle_edge[t][2]);
         }
 }
 

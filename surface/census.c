@@ -1,17 +1,11 @@
 #include "surface/census.h"
 
 #include "common/array.h"
+#include "common/disjoint_sets.h"
 #include "common/vec3.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-static uint32_t root_of(uint32_t *parent, uint32_t point)
-{
-    while (parent[point] != point)
-        point = parent[point] = parent[parent[point]];
-    return point;
-}
 
 size_t surface_number_parts(const struct mesh *mesh, uint32_t *part)
 {
@@ -19,11 +13,9 @@ size_t surface_number_parts(const struct mesh *mesh, uint32_t *part)
     for (uint32_t p = 0; p < mesh->point_count; p++)
         part[p] = p;
     for (uint32_t t = 0; t < mesh->triangle_count; t++)
-        for (int k = 0; k < 2; k++) {
-            uint32_t a = root_of(part, mesh->triangle[t][k]), b = root_of(part, mesh->triangle[t][k + 1]);
-            part[a > b ? a : b] = a > b ? b : a;
-        }
-    /* A root is its part's first point, so its number is known before the others ask. */
+        for (int k = 0; k < 2; k++)
+            sets_unite(part, mesh->triangle[t][k], mesh->triangle[t][k + 1]);
+    /* A part's first point stands for it, so its number is known before the others ask. */
     for (uint32_t p = 0; p < mesh->point_count; p++)
         part[p] = part[p] == p ? (uint32_t)count++ : part[part[p]];
     return count;
