@@ -46,17 +46,6 @@ void app_close_pictures(struct app *app)
     image_clear(&app->image);
 }
 
-/* The mean length of its three edges over their mean rest length. */
-static double triangle_stretch(const struct sim *sim, uint32_t t)
-{
-    double length = 0, rest = 0;
-    for (int k = 0; k < 3; k++) {
-        length += sim_edge_length(sim, sim->triangle_edge[t][k]);
-        rest += sim->rest_length[sim->triangle_edge[t][k]];
-    }
-    return rest > 0 ? length / rest : 1;
-}
-
 /* The corners of the active triangles, band after band. */
 static void fill_bands(struct app *app)
 {
@@ -66,7 +55,7 @@ static void fill_bands(struct app *app)
     for (uint32_t t = 0; t < sim->triangle_count; t++) {
         if (!sim->triangle_active[t])
             continue;
-        const double part = app_stretch_part(app, triangle_stretch(sim, t));
+        const double part = app_stretch_part(app, sim_triangle_stretch(sim, t));
         bands->band[t] = (unsigned char)fmin(part * WINDOW_BANDS, WINDOW_BANDS - 1);
         begin[bands->band[t] + 1]++;
     }
