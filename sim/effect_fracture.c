@@ -4,6 +4,7 @@
 #include "sim/checkpoint.h"
 #include "sim/effects.h"
 #include "sim/fracture.h"
+#include "sim/measure.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -53,8 +54,7 @@ static void measure_triangles(const struct sim *sim, const struct sim_balloon *b
     for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++) {
         const uint32_t *p = sim->triangle_point[t], i = t - b->triangle_begin;
         double d1[3], d2[3], cross[3];
-        vec3_sub(sim->position[p[1]], sim->position[p[0]], d1);
-        vec3_sub(sim->position[p[2]], sim->position[p[0]], d2);
+        sim_sides(sim, t, d1, d2);
         vec3_cross(d1, d2, cross);
         f->shape[i][0] = vec3_length(d1);
         f->shape[i][1] = vec3_dot(d1, d2) / f->shape[i][0];

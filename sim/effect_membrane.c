@@ -4,6 +4,7 @@
 #include "common/vec3.h"
 #include "sim/effects.h"
 #include "sim/guard.h"
+#include "sim/measure.h"
 #include "sim/membrane_kernels.h"
 
 #include <math.h>
@@ -68,10 +69,8 @@ static struct membrane_law law_of(const struct scene_membrane *block)
  * nothing and weighs nothing. */
 static void set_rest(struct sim *sim, const struct sim_balloon *b, uint32_t t, double rest[4])
 {
-    const uint32_t *p = sim->triangle_point[t];
     double r1[3], r2[3], cross[3];
-    vec3_sub(sim->position[p[1]], sim->position[p[0]], r1);
-    vec3_sub(sim->position[p[2]], sim->position[p[0]], r2);
+    sim_sides(sim, t, r1, r2);
     vec3_cross(r1, r2, cross);
     const double length = vec3_length(r1), twice = vec3_length(cross);
     if (!(twice > 0))
@@ -87,10 +86,8 @@ static void set_rest(struct sim *sim, const struct sim_balloon *b, uint32_t t, d
  * skin_of). Of one that is h times as wide as long rounding leaves them 1e-16/h^2. */
 static bool is_resolved(const struct sim *sim, uint32_t t, const double rest[4])
 {
-    const uint32_t *p = sim->triangle_point[t];
     double d1[3], d2[3];
-    vec3_sub(sim->position[p[1]], sim->position[p[0]], d1);
-    vec3_sub(sim->position[p[2]], sim->position[p[0]], d2);
+    sim_sides(sim, t, d1, d2);
     const double xx = vec3_dot(d1, d1), xy = vec3_dot(d1, d2), yy = vec3_dot(d2, d2), b0 = rest[0],
                  b1 = rest[1], b2 = rest[2];
     const double a = b0 * b0 * xx + b1 * (b1 * xx + 2 * b2 * xy) + b2 * b2 * yy,

@@ -3,6 +3,7 @@
 #include "sim/cracks.h"
 #include "sim/guard.h"
 #include "sim/let_go.h"
+#include "sim/measure.h"
 
 #include <math.h>
 #include <string.h>
@@ -63,12 +64,11 @@ static void look_at_springs(const struct sim *sim, const struct sim_balloon *b, 
         look_at_line(sim, b, p, s);
         return;
     }
-    double f1[3], f2[3];
+    double d1[3], d2[3], f1[3], f2[3];
+    sim_sides(sim, triangle, d1, d2);
     for (int i = 0; i < 3; i++) {
-        const double d1 = sim->position[p[1]][i] - sim->position[p[0]][i],
-                     d2 = sim->position[p[2]][i] - sim->position[p[0]][i];
-        f1[i] = d1 / shape[0];
-        f2[i] = (d2 - shape[1] * f1[i]) / shape[2];
+        f1[i] = d1[i] / shape[0];
+        f2[i] = (d2[i] - shape[1] * f1[i]) / shape[2];
     }
     const double c11 = vec3_dot(f1, f1), c12 = vec3_dot(f1, f2), c22 = vec3_dot(f2, f2);
     const double mean = (c11 + c22) / 2, off = hypot((c11 - c22) / 2, c12);
@@ -209,8 +209,7 @@ static void tension_at(const struct sim *sim, const struct sim_balloon *b, uint3
     } while (topology_next(sim, b, &fan) && fan.triangle != first);
     const uint32_t *p = sim->triangle_point[at];
     double d1[3], d2[3];
-    vec3_sub(sim->position[p[1]], sim->position[p[0]], d1);
-    vec3_sub(sim->position[p[2]], sim->position[p[0]], d2);
+    sim_sides(sim, at, d1, d2);
     const double g11 = vec3_dot(d1, d1), g12 = vec3_dot(d1, d2), g22 = vec3_dot(d2, d2);
     const double x = vec3_dot(best.direction, d1), y = vec3_dot(best.direction, d2);
     const double det = g11 * g22 - g12 * g12;

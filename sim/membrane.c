@@ -3,6 +3,7 @@
 #include "sim/membrane.h"
 #include "common/threads.h"
 #include "common/vec3.h"
+#include "sim/measure.h"
 #include "sim/membrane_kernels.h"
 
 #include <string.h>
@@ -24,10 +25,8 @@ const struct membrane_kernels *membrane_kernels_find(void)
 /* F, column by column, in the plane's frame at rest. */
 static void find_gradient(const struct sim *sim, const double rest[4], uint32_t triangle, double f[2][3])
 {
-    const uint32_t *p = sim->triangle_point[triangle];
     double d1[3], d2[3];
-    vec3_sub(sim->position[p[1]], sim->position[p[0]], d1);
-    vec3_sub(sim->position[p[2]], sim->position[p[0]], d2);
+    sim_sides(sim, triangle, d1, d2);
     for (int i = 0; i < 3; i++) {
         f[0][i] = rest[0] * d1[i];
         f[1][i] = rest[1] * d1[i] + rest[2] * d2[i];
