@@ -107,13 +107,12 @@ enum status mesh_write_obj(const struct mesh *mesh, FILE *stream, struct error *
         fprintf(stream, "vn %.9g %.9g %.9g\n", normal[0], normal[1], normal[2]);
     }
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
-        uint64_t a = mesh->triangle[t][0] + 1ull, b = mesh->triangle[t][1] + 1ull,
-                 c = mesh->triangle[t][2] + 1ull;
+        const uint32_t *corner = mesh->triangle[t];
+        const uint32_t a = corner[0] + 1, b = corner[1] + 1, c = corner[2] + 1; /* at most 2^32 - 2 */
         if (mesh->normal)
-            fprintf(stream, "f %ju//%ju %ju//%ju %ju//%ju\n", (uintmax_t)a, (uintmax_t)a, (uintmax_t)b,
-                    (uintmax_t)b, (uintmax_t)c, (uintmax_t)c);
+            fprintf(stream, "f %u//%u %u//%u %u//%u\n", a, a, b, b, c, c);
         else
-            fprintf(stream, "f %ju %ju %ju\n", (uintmax_t)a, (uintmax_t)b, (uintmax_t)c);
+            fprintf(stream, "f %u %u %u\n", a, b, c);
     }
     return STATUS_OK;
 }
