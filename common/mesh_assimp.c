@@ -34,14 +34,8 @@ static bool open_library(struct assimp *assimp)
     return assimp->import_file && assimp->release_import && assimp->error_string;
 }
 
-/* Corners, three a triangle. */
-struct soup {
-    double (*items)[3];
-    size_t count, capacity;
-};
-
 static enum status add_triangle(const struct aiMesh *part, const struct aiFace *face, const char *path,
-                                struct soup *soup, struct error *err)
+                                struct place_list *soup, struct error *err)
 {
     if (!ARRAY_RESERVE(soup, 3))
         return error_no_memory(err, path);
@@ -65,7 +59,7 @@ static enum status add_triangle(const struct aiMesh *part, const struct aiFace *
 static enum status take_triangles(const struct aiScene *scene, const char *path, struct mesh *mesh,
                                   struct error *err)
 {
-    struct soup soup = {0};
+    struct place_list soup = {0};
     enum status status = STATUS_OK;
     for (unsigned m = 0; m < scene->mNumMeshes; m++) {
         const struct aiMesh *part = scene->mMeshes[m];

@@ -41,4 +41,10 @@ enum status triangle_list_add(struct triangle_list *list, uint32_t a, uint32_t b
 /* Hands the triangles to a mesh that has none, and empties the list. */
 void triangle_list_give(struct triangle_list *list, struct mesh *mesh);
 
+/* Places as they are read, of points or, three a triangle, of corners. */
+struct place_list {
+    double (*items)[3];
+    size_t count, capacity;
+};
+
 #endif

@@ -9,10 +9,7 @@
 
 struct obj {
     struct text text;
-    struct {
-        double (*items)[3];
-        size_t count, capacity;
-    } points;
+    struct place_list points;
     struct triangle_list triangles;
     uint32_t largest;    /* a face may name points that come later, so the largest */
     size_t largest_line; /* is checked at the end */

@@ -15,19 +15,13 @@
 
 enum { HEAD_SIZE = 84, COUNT_AT = 80, FACET_SIZE = 50, CORNERS_AT = 12 };
 
-/* Corners, three a triangle. */
-struct soup {
-    double (*items)[3];
-    size_t count, capacity;
-};
-
 static bool is_binary(const struct bytes *bytes)
 {
     return bytes->size >= HEAD_SIZE &&
            bytes->size == HEAD_SIZE + (uint64_t)FACET_SIZE * get_bits(bytes->data + COUNT_AT, 4);
 }
 
-static enum status read_binary(const struct bytes *bytes, const char *path, struct soup *soup,
+static enum status read_binary(const struct bytes *bytes, const char *path, struct place_list *soup,
                                struct error *err)
 {
     size_t triangle_count = (bytes->size - HEAD_SIZE) / FACET_SIZE;
@@ -80,7 +74,7 @@ static enum status want_numbers(struct text *text, double number[3], struct erro
     return STATUS_OK;
 }
 
-static enum status want_corner(struct text *text, struct soup *soup, struct error *err)
+static enum status want_corner(struct text *text, struct place_list *soup, struct error *err)
 {
     enum status status = want_word(text, "vertex", err);
     if (!status && !ARRAY_RESERVE(soup, 1))
@@ -97,7 +91,7 @@ static enum status want_corner(struct text *text, struct soup *soup, struct erro
 }
 
 /* What follows the word "facet". The normal is not used: the winding says the same. */
-static enum status want_facet(struct text *text, struct soup *soup, struct error *err)
+static enum status want_facet(struct text *text, struct place_list *soup, struct error *err)
 {
     double normal[3];
     enum status status = want_word(text, "normal", err);
@@ -115,7 +109,7 @@ static enum status want_facet(struct text *text, struct soup *soup, struct error
 }
 
 /* One "solid NAME ... endsolid NAME" or several. */
-static enum status read_text(struct text *text, struct soup *soup, struct error *err)
+static enum status read_text(struct text *text, struct place_list *soup, struct error *err)
 {
     struct word word;
     char shown[WORD_SHOWN_SIZE];
@@ -137,7 +131,7 @@ static enum status read_text(struct text *text, struct soup *soup, struct error 
     return status;
 }
 
-static enum status read_soup(const struct bytes *bytes, const char *path, struct soup *soup,
+static enum status read_soup(const struct bytes *bytes, const char *path, struct place_list *soup,
                              struct error *err)
 {
     struct text text = text_of(path, bytes->data, bytes->size);
@@ -160,7 +154,7 @@ static enum status read_soup(const struct bytes *bytes, const char *path, struct
 
 enum status mesh_read_stl(const struct bytes *bytes, const char *path, struct mesh *mesh, struct error *err)
 {
-    struct soup soup = {0};
+    struct place_list soup = {0};
     enum status status = read_soup(bytes, path, &soup, err);
     if (!status)
         status = mesh_from_soup((const double(*)[3])soup.items, soup.count / 3, mesh, err);
