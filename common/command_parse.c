@@ -69,10 +69,9 @@ static void refuse_unknown(const struct argp_option *options, int argc, char **a
     }
 }
 
-/* What is parsed: argp hands its parser nothing of ours. */
+/* What is parsed: argp hands its parser nothing of ours. By key: what counts, and what came before. */
 static const struct argp *program;
-static const char *given[COMMAND_KEYS],
-    *replaced[COMMAND_KEYS]; /* by key: what counts, and what came before */
+static const char *given[COMMAND_KEYS], *replaced[COMMAND_KEYS];
 
 /* At the end, when it is known whether notes are wanted. */
 static void tell_replaced(void)

@@ -42,14 +42,13 @@ struct octree_tape; /* see common/octree_tape.h */
 struct octree {
     octree_node root;
     unsigned depth; /* 0 .. OCTREE_DEPTH_MAX */
-    octree_node
-        *blocks; /* [8 * block_capacity]; child x + 2 y + 4 z of block b is blocks[8 b + x + 2 y + 4 z] */
+    /* [8 * block_capacity]: child x + 2 y + 4 z of block b is blocks[8 b + x + 2 y + 4 z]. */
+    octree_node *blocks;
     uint32_t block_count, block_capacity; /* blocks ever used, room */
-    uint32_t free_block,
-        free_count; /* first of the list of freed blocks (linked through child 0), its length */
-    float coefficient[OCTREE_MATERIALS]; /* b_k of the field of each material; 1 unless a sculpture says
+    uint32_t free_block, free_count;      /* first of the freed blocks, linked by child 0; how many */
+    float coefficient[OCTREE_MATERIALS];  /* b_k of the field of each material; 1 unless a sculpture says
                                             otherwise */
-    struct octree_tape *tape;            /* where changes are recorded, or NULL; it is not the octree's */
+    struct octree_tape *tape;             /* where changes are recorded, or NULL; it is not the octree's */
 };
 
 /* A cube of one material. Errors: STATUS_RANGE for a depth above OCTREE_DEPTH_MAX. */

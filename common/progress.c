@@ -20,9 +20,9 @@ static struct {
     bool started;
     const char *at;    /* what it is at, in words; or NULL */
     double from, done; /* from: what was done at the beginning, of a run that is gone on with */
-    double shown;      /* when the bar was drawn last; */
-    double told,
-        told_share; /* or how long it had taken, and what was done, at the last note; 0: there was none */
+    double shown;      /* when the bar was drawn last */
+    /* Or how long it had taken, and what was done, at the last note; 0: there was none. */
+    double told, told_share;
 } progress = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
 static double now(clockid_t clock)

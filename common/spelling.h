@@ -11,8 +11,8 @@
 #include <stddef.h>
 
 struct spelling {
-    const char *wrong,
-        *nearest; /* both borrowed; nearest is NULL while no name is alike in half of its letters */
+    const char *wrong;   /* borrowed, */
+    const char *nearest; /* as this is; NULL while no name is alike in half of its letters */
     size_t distance;
 };
 

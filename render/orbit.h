@@ -14,8 +14,8 @@
 
 struct orbit {
     double target[3], distance; /* what it looks at, and from how far */
-    double azimuth_deg,
-        elevation_deg;        /* of the eye: 0, 0 on the target's +z side; 90, 0 on +x; any, 90 above */
+    /* Of the eye: 0, 0 on the target's +z side; 90, 0 on +x; any, 90 above. */
+    double azimuth_deg, elevation_deg;
     double field_of_view_deg; /* vertical */
 };
 

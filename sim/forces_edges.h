@@ -24,8 +24,7 @@ struct edges {
     const double *spring_const, *rest_length;
     const unsigned char *active;
     double damping;
-    double most,
-        most_of_rest; /* an edge of rest length r is surely not overlong up to most + most_of_rest r */
+    double most, most_of_rest; /* up to most + most_of_rest r an edge of rest length r is not overlong */
     /* Of arms: how far each has given way, from the balloon's first edge on, and at what rate; the stiffness
      * over the spring's; 1/T. */
     const double *given;

@@ -34,8 +34,8 @@ struct gas {
     double volume, pressure, rim_thrust, neck_thrust;
     double outside; /* of the air beside the middle of the volume */
 
-    bool tube_held,
-        tube_told; /* what flows in its tube was held back by them (effect_tube.c); and that was told */
+    bool tube_held; /* what flows in its tube was held back by them (effect_tube.c) */
+    bool tube_told; /* and that was told */
 
     struct gas_memory {
         double bound_volume, bound_pressure, bound_gauge; /* for which the guard's bound was found */

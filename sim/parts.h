@@ -37,8 +37,8 @@ struct sim_chunk {
     uint32_t edge_inner_end;               /* up to this one all their points are the part's */
     uint32_t triangle_begin, triangle_end; /* likewise */
     uint32_t triangle_inner_end;
-    uint32_t edge_inner_most,
-        triangle_inner_most; /* the same while nothing has got points of the last part */
+    /* The same while nothing has got points of the last part. */
+    uint32_t edge_inner_most, triangle_inner_most;
 };
 
 /* Runs function on every part, each on its worker, and returns when all are done. */

@@ -69,9 +69,9 @@ struct sim_balloon {
     double breathing_rate;    /* 1/s, for errors of speeds (weights.h) */
     struct sim_settings *now; /* one of sim->settings */
     bool by_area;             /* pressure acts on areas, not on each point alike */
-    uint32_t arms,
-        arm_count; /* the first of its edges' scalars, where springs are viscous (effect_viscosity.c) */
-    double *slip;  /* [slip_count] of its edges, where springs slip (effect_plasticity.c); owned */
+    /* Its edges' scalars where springs are viscous (effect_viscosity.c): the first; how many. */
+    uint32_t arms, arm_count;
+    double *slip; /* [slip_count] of its edges, where springs slip (effect_plasticity.c); owned */
     uint32_t slip_count;
     struct membrane *membrane; /* what acts in place of the springs (membrane.h); NULL: the springs */
     struct bending *bending;   /* what resists being bent (bending.h); NULL: nothing */

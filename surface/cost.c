@@ -29,8 +29,8 @@ const char *const cost_dial_names[COST_DIALS] = {"cube-size", "fields-per-cube",
 
 struct walk {
     const struct octree *tree;
-    struct surface_options base,
-        exact; /* with a cube size; and with the exact field, cut off as far as can be */
+    struct surface_options base;  /* with a cube size */
+    struct surface_options exact; /* and with the exact field, cut off as far as can be */
     struct cost_table *table;
     bool own;                        /* the exact field has no surface: `exact` has the options' own fields */
     double area, volume;             /* of an infinitely fine mesh */

@@ -21,8 +21,8 @@
 enum { RING_MAX = 32, DEGREE_MAX = 255 };
 
 struct remesh {
-    uint32_t point_count,
-        triangle_count; /* with the dead ones, whose corner[p] or triangle[t][0] is MESH_NONE */
+    /* With the dead ones, whose corner[p] or triangle[t][0] is MESH_NONE. */
+    uint32_t point_count, triangle_count;
     uint32_t point_room, triangle_room;
     uint32_t points_alive, triangles_alive;
     uint32_t first_new;    /* points from here on were made by splitting */
