@@ -25,6 +25,7 @@ void command_begin(const char *program)
     argp_program_version_hook = print_version;
     argp_err_exit_status = 2;
     signal(SIGXFSZ, SIG_IGN);
+    signal(SIGCHLD, SIG_DFL);
 }
 
 void command_keep_memory(void)

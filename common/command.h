@@ -16,7 +16,7 @@
 #include <stddef.h>
 
 /* Names the program. A file that may not grow is an error from then on, like a full disk: the system would
- * end the program. */
+ * end the program. How a child ended is told also where whoever began the program did not want to know. */
 void command_begin(const char *program);
 
 /* A flag of options that all count when they are given several times (none of argp's); keys are below. */

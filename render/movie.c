@@ -136,9 +136,11 @@ static int spawn(const char *const *arguments, int input, int output, pid_t *chi
 static bool wait_for(pid_t child)
 {
     int result = 0;
-    while (waitpid(child, &result, 0) < 0 && errno == EINTR)
-        ;
-    return WIFEXITED(result) && WEXITSTATUS(result) == 0;
+    pid_t ended;
+    do
+        ended = waitpid(child, &result, 0);
+    while (ended < 0 && errno == EINTR);
+    return ended == child && WIFEXITED(result) && WEXITSTATUS(result) == 0;
 }
 
 /* What ffmpeg says of its encoders, for free(); NULL where it says nothing. */

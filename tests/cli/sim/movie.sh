@@ -12,3 +12,23 @@ no_file m.avi
 mkdir empty
 refused 1 'ffmpeg' env PATH="$PROGRAMS/sim:$PWD/empty" balloon-sim m.ply $short --movie n.mp4
 no_file n.mp4
+
+# A movie that ffmpeg could not make is none, also where whoever began the program does not want to know how children end.
+mkdir fake
+cat >fake/ffmpeg <<'EOF'
+#!/bin/sh
+case "$*" in
+*-encoders*) echo 'Encoders: libx264 ' ;;
+*)
+    cat >/dev/null
+    exit 1
+    ;;
+esac
+EOF
+chmod +x fake/ffmpeg
+refused 1 'ffmpeg failed' env --ignore-signal=CHLD PATH="$PWD/fake:$PATH" balloon-sim m.ply $short --movie f.mp4
+no_file f.mp4
+if command -v gnuplot >/dev/null; then
+    expect 0 env --ignore-signal=CHLD balloon-sim m.ply $short --plot p.png
+    a_file p.png
+fi
