@@ -18,6 +18,12 @@ static inline size_t node_children(octree_node node)
     return 8 * (size_t)(node & ~OCTREE_SPLIT);
 }
 
+/* Which child of a node of 2^(level + 1) cells a side the cell is in. */
+static inline unsigned node_child_of(int x, int y, int z, unsigned level)
+{
+    return (unsigned)((x >> level & 1) + 2 * (y >> level & 1) + 4 * (z >> level & 1));
+}
+
 /* More room on a tape; false when there can be none: then the tape is lost. */
 bool octree_tape_grow(struct octree_tape *tape);
 

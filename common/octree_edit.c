@@ -188,7 +188,7 @@ enum status octree_apply(struct octree *tree, octree_shape *covers, const void *
 }
 
 /* Splits a leaf along the way to one of its cells; false when memory is not enough. */
-static bool set_in_leaf(struct octree *tree, octree_node *node, const unsigned cell[3], unsigned level,
+static bool set_in_leaf(struct octree *tree, octree_node *node, const int cell[3], unsigned level,
                         octree_node material)
 {
     octree_node made = material;
@@ -196,7 +196,7 @@ static bool set_in_leaf(struct octree *tree, octree_node *node, const unsigned c
         octree_node children[8], leaf = *node;
         for (int i = 0; i < 8; i++)
             children[i] = leaf;
-        children[(cell[0] >> bit & 1) + 2 * (cell[1] >> bit & 1) + 4 * (cell[2] >> bit & 1)] = made;
+        children[node_child_of(cell[0], cell[1], cell[2], bit)] = made;
         octree_node parent;
         if (!octree_join(tree, children, &parent)) {
             octree_release(tree, made);
@@ -212,7 +212,7 @@ enum status octree_set(struct octree *tree, int x, int y, int z, unsigned materi
 {
     assert(material < OCTREE_MATERIALS);
     assert((x | y | z) >= 0 && ((x | y | z) >> tree->depth) == 0);
-    const unsigned cell[3] = {(unsigned)x, (unsigned)y, (unsigned)z};
+    const int cell[3] = {x, y, z};
     octree_node path[OCTREE_DEPTH_MAX];
     size_t place[OCTREE_DEPTH_MAX];
     octree_node node = tree->root;
@@ -220,8 +220,7 @@ enum status octree_set(struct octree *tree, int x, int y, int z, unsigned materi
     for (; node_is_split(node); steps++) {
         level--;
         path[steps] = node;
-        place[steps] = node_children(node) + (cell[0] >> level & 1) + 2 * (cell[1] >> level & 1) +
-                       4 * (cell[2] >> level & 1);
+        place[steps] = node_children(node) + node_child_of(x, y, z, level);
         node = tree->blocks[place[steps]];
     }
     if (node == material)
@@ -229,7 +228,7 @@ enum status octree_set(struct octree *tree, int x, int y, int z, unsigned materi
     if (!set_in_leaf(tree, &node, cell, level, material))
         return error_no_memory(err, "the octree");
     if (tree->tape)
-        octree_tape_region(tree->tape, (const int[3]){x, y, z}, 1);
+        octree_tape_region(tree->tape, cell, 1);
     while (steps-- > 0) {
         node_write(tree, place[steps], node);
         node = octree_merge(tree, path[steps]);

@@ -143,9 +143,7 @@ static inline unsigned find_leaf(struct march *march, unsigned level)
     octree_node node = march->path[level];
     while (node_is_split(node)) {
         level--;
-        node = march->tree->blocks[node_children(node) +
-                                   (unsigned)((cell[0] >> level & 1) + 2 * (cell[1] >> level & 1) +
-                                              4 * (cell[2] >> level & 1))];
+        node = march->tree->blocks[node_children(node) + node_child_of(cell[0], cell[1], cell[2], level)];
         march->path[level] = node;
     }
     return level;

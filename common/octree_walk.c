@@ -8,8 +8,7 @@ unsigned octree_at(const struct octree *tree, int x, int y, int z)
     octree_node node = tree->root;
     for (unsigned level = tree->depth; node_is_split(node);) {
         level--;
-        node = tree->blocks[node_children(node) +
-                            (unsigned)((x >> level & 1) + 2 * (y >> level & 1) + 4 * (z >> level & 1))];
+        node = tree->blocks[node_children(node) + node_child_of(x, y, z, level)];
     }
     return node;
 }
