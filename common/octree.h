@@ -126,8 +126,8 @@ struct octree_leaf {
     unsigned material;
 };
 
-/* Calls visit for each leaf that is not empty and meets the cells low .. high (both included), in Morton
- * order; visit returns false to end the walk. octree_visit_all visits all such leaves. */
+/* Calls visit for each leaf that is not empty and meets the cells low .. high (both included, also beyond the
+ * cube), in Morton order; visit returns false to end the walk. octree_visit_all visits all such leaves. */
 typedef bool octree_visitor(void *context, const struct octree_leaf *leaf);
 void octree_visit(const struct octree *tree, const int low[3], const int high[3], octree_visitor *visit,
                   void *context);

@@ -31,14 +31,12 @@ static bool mark_leaf(void *context, const struct octree_leaf *leaf)
 static void mark_cells(struct brick_cells *cells, const struct octree *tree, const int brick[3])
 {
     *cells = (struct brick_cells){.tree = tree};
-    int low[3], high[3];
-    const int side = 1 << tree->depth;
+    int last[3];
     for (int i = 0; i < 3; i++) {
         cells->first[i] = brick[i] * BRICK_SIDE - 1;
-        low[i] = cells->first[i] < 0 ? 0 : cells->first[i];
-        high[i] = cells->first[i] + ROWS > side ? side - 1 : cells->first[i] + ROWS - 1;
+        last[i] = cells->first[i] + ROWS - 1;
     }
-    octree_visit(tree, low, high, mark_leaf, cells);
+    octree_visit(tree, cells->first, last, mark_leaf, cells);
 }
 
 /* The exposed cells of a brick on one side, layer by layer along the side's axis: a bit a cell of a row. Rows

@@ -41,16 +41,14 @@ static bool mark_leaf(void *context, const struct octree_leaf *leaf)
 
 void brick_normals_begin(struct brick_normals *normals, const struct octree *tree, const int brick[3])
 {
-    const int side = 1 << tree->depth;
-    int low[3], high[3];
+    int last[3];
     pthread_once(&once, make_tables);
     memset(normals->row, 0, sizeof normals->row);
     for (int i = 0; i < 3; i++) {
         normals->first[i] = brick[i] * BRICK_SIDE - NORMALS_REACH;
-        low[i] = normals->first[i] < 0 ? 0 : normals->first[i];
-        high[i] = normals->first[i] + NORMALS_ROWS > side ? side - 1 : normals->first[i] + NORMALS_ROWS - 1;
+        last[i] = normals->first[i] + NORMALS_ROWS - 1;
     }
-    octree_visit(tree, low, high, mark_leaf, normals);
+    octree_visit(tree, normals->first, last, mark_leaf, normals);
 }
 
 void brick_normal(const struct brick_normals *normals, const int cell[3], int side, int8_t normal[3])
