@@ -28,8 +28,8 @@ struct window {
 static struct window *the_window;
 static jmp_buf failed;
 static char failure[256];
-static bool
-    exiting; /* the process ends: Xlib does that when the display is gone, and freeglut closes windows then */
+/* The process ends: Xlib does that when the display is gone, and freeglut closes windows then. */
+static bool exiting;
 
 static void note_exit(void)
 {
