@@ -6,12 +6,19 @@
 
 #include <stdint.h>
 
-static inline uint64_t random_bits(uint64_t *state)
+#define RANDOM_STEP 0x9e3779b97f4a7c15u /* 2^64 over the golden ratio */
+
+/* The generator's finaliser, also a hash: bits that differ little are spread over the whole word. */
+static inline uint64_t random_mix(uint64_t z)
 {
-    uint64_t z = *state += 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return z ^ (z >> 31);
+}
+
+static inline uint64_t random_bits(uint64_t *state)
+{
+    return random_mix(*state += RANDOM_STEP);
 }
 
 /* Uniform in [0, 1). */

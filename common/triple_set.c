@@ -1,24 +1,21 @@
 #include "common/triple_set.h"
 
 #include "common/array.h"
+#include "common/random.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum { FIRST_SLOTS = 1024 };
 
-/* The finaliser of SplitMix64 (see common/random.h) over the three numbers in turn: neighbours in space,
- * whose bits differ little, are spread over the whole table. */
+/* Neighbours in space, whose bits differ little, are spread over the whole table. */
 static uint64_t hash_of(const double triple[3])
 {
     uint64_t hash = 0;
     for (int i = 0; i < 3; i++) {
         uint64_t bits;
         memcpy(&bits, &triple[i], sizeof bits);
-        hash = (hash + 0x9e3779b97f4a7c15u) ^ bits;
-        hash = (hash ^ hash >> 30) * 0xbf58476d1ce4e5b9u;
-        hash = (hash ^ hash >> 27) * 0x94d049bb133111ebu;
-        hash ^= hash >> 31;
+        hash = random_mix((hash + RANDOM_STEP) ^ bits);
     }
     return hash;
 }

@@ -2,6 +2,7 @@
  * over the area stretch. */
 #include "render/geometry.h"
 
+#include "common/random.h"
 #include "common/vec3.h"
 
 #include <string.h>
@@ -34,14 +35,10 @@ static double film_of(const struct render_skin *skin)
     return low;
 }
 
-/* Spreads a point's number over 64 bits (Steele, Lea and Flood, "Fast splittable pseudorandom number
- * generators", 2014): sums of unequal ones do not vanish by chance. */
+/* A point's number spread over 64 bits: sums of unequal ones do not vanish by chance. */
 static uint64_t spread(uint64_t number)
 {
-    number = (number + 1) * 0x9e3779b97f4a7c15;
-    number = (number ^ number >> 30) * 0xbf58476d1ce4e5b9;
-    number = (number ^ number >> 27) * 0x94d049bb133111eb;
-    return number ^ number >> 31;
+    return random_mix((number + 1) * RANDOM_STEP);
 }
 
 /* Adds a triangle to its corners' fans and returns its area. */
