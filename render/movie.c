@@ -251,19 +251,17 @@ enum status movie_open(const char *path, int width, int height, double rate, str
     return STATUS_OK;
 }
 
-/* The last line that ffmpeg wrote, or "no reason given". */
-static const char *last_message(const struct movie *movie, char *text, size_t size)
+/* The first line that ffmpeg wrote, of which all others came, without the "[part @ address]" that say so; or
+ * "no reason given". */
+static const char *first_message(const struct movie *movie, char *text, size_t size)
 {
-    off_t end = lseek(movie->messages, 0, SEEK_END);
-    off_t start = end > (off_t)size - 1 ? end - (off_t)size + 1 : 0;
-    ssize_t got = pread(movie->messages, text, size - 1, start);
-    while (got > 0 && (text[got - 1] == '\n' || text[got - 1] == '\r'))
-        got--;
-    if (got <= 0)
-        return "no reason given";
-    text[got] = '\0';
-    const char *line = strrchr(text, '\n');
-    return line ? line + 1 : text;
+    const ssize_t got = pread(movie->messages, text, size - 1, 0);
+    text[got > 0 ? got : 0] = '\0';
+    char *line = text + strspn(text, "\r\n");
+    while (*line == '[' && strstr(line, "] "))
+        line = strstr(line, "] ") + 2;
+    line[strcspn(line, "\r\n")] = '\0';
+    return *line ? line : "no reason given";
 }
 
 /* Closes the pipe and waits. True when ffmpeg was content. */
@@ -281,7 +279,7 @@ static enum status ffmpeg_failed(const struct movie *movie, struct error *err)
 {
     char text[512];
     return error_set(err, STATUS_FILE, "%s: ffmpeg failed: %s", movie->target,
-                     last_message(movie, text, sizeof text));
+                     first_message(movie, text, sizeof text));
 }
 
 /* write() of everything, without the signal that a closed pipe sends. */

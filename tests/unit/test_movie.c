@@ -26,7 +26,9 @@ static void ffmpegs_end_sends_no_signal_to_who_writes(void **state)
     struct error err = {0};
     struct movie *movie;
     struct image image = a_picture(100, 100);
-    pretend_ffmpeg("echo 'no such codec' >&2; exit 1");
+    /* the cause, with who says so in front, and then what comes of it */
+    pretend_ffmpeg(
+        "echo '[rawvideo @ 0x55] [IMGUTILS @ 0x7f] no such codec' >&2; echo 'pipe:0: Invalid argument' >&2; exit 1");
     assert_ok(movie_open("m.webm", 100, 100, 30, &movie, &err), &err);
     enum status status = STATUS_OK;
     for (int n = 0; n < 50 && !status; n++) /* a pipe holds two of these */
