@@ -92,16 +92,29 @@ static void read_complaint(int messages, char *text, size_t size)
     snprintf(text, size, "%.*s", (int)strcspn(line, "\n"), *line ? line : "no reason given");
 }
 
-static enum status draw(const char *path, int script, int messages, struct file_out *out, struct error *err)
+/* Errors are kept by the stream. */
+static void copy(int from, FILE *to)
+{
+    char part[4096];
+    ssize_t got = 0;
+    for (off_t at = 0; (got = pread(from, part, sizeof part, at)) > 0; at += got)
+        fwrite(part, 1, (size_t)got, to);
+}
+
+/* By way of a file in memory: gnuplot says nothing of a full disk. */
+static enum status draw(const char *path, int script, int picture, int messages, struct file_out *out,
+                        struct error *err)
 {
     int exit_status = 0;
     char complaint[256];
-    if (!run_gnuplot(script, fileno(file_out_stream(out)), messages, &exit_status))
+    if (!run_gnuplot(script, picture, messages, &exit_status))
         return error_set_errno(err, path, "start gnuplot for");
-    if (WIFEXITED(exit_status) && WEXITSTATUS(exit_status) == 0)
-        return STATUS_OK;
-    read_complaint(messages, complaint, sizeof complaint);
-    return error_set(err, STATUS_RESOURCE, "%s: gnuplot failed: %s", path, complaint);
+    if (!WIFEXITED(exit_status) || WEXITSTATUS(exit_status) != 0) {
+        read_complaint(messages, complaint, sizeof complaint);
+        return error_set(err, STATUS_RESOURCE, "%s: gnuplot failed: %s", path, complaint);
+    }
+    copy(picture, file_out_stream(out));
+    return STATUS_OK;
 }
 
 enum status plot_save(const struct plot *plot, const char *path, struct error *err)
@@ -110,11 +123,14 @@ enum status plot_save(const struct plot *plot, const char *path, struct error *e
     if (plot_check(path, err) || file_out_open(path, &out, err))
         return err->status;
     int script = new_script(plot, file_has_extension(path, "svg"));
-    int messages = memfd_create("gnuplot", MFD_CLOEXEC);
-    enum status status = script >= 0 && messages >= 0 ? draw(path, script, messages, out, err)
-                                                      : error_no_memory(err, path);
+    int picture = memfd_create("picture", MFD_CLOEXEC), messages = memfd_create("gnuplot", MFD_CLOEXEC);
+    enum status status = script >= 0 && picture >= 0 && messages >= 0
+                             ? draw(path, script, picture, messages, out, err)
+                             : error_no_memory(err, path);
     if (script >= 0)
         close(script);
+    if (picture >= 0)
+        close(picture);
     if (messages >= 0)
         close(messages);
     if (status == STATUS_OK)

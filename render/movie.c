@@ -88,14 +88,15 @@ static enum status make_temporary(struct movie *movie, struct error *err)
 }
 
 /* The arguments; texts that are made here lie in `size`, `rate` and `output`. No shell reads them, and the
- * prefix keeps ffmpeg from taking a file's name for an option or an address. */
+ * prefix keeps ffmpeg from taking a file's name for an option or an address. Without -xerror it is content
+ * with what a full disk has room for. */
 static void list_arguments(const struct kind *kind, const char *size, const char *rate, const char *output,
                            const char *list[ARGUMENTS_MAX])
 {
-    const char *const begin[] = {"ffmpeg", "-hide_banner", "-loglevel",  "error",    "-nostdin",
-                                 "-y",     "-f",           "rawvideo",   "-pix_fmt", "rgb24",
-                                 "-s",     size,           "-framerate", rate,       "-i",
-                                 "pipe:0", "-vf",          kind->filter, "-c:v",     kind->encoder};
+    const char *const begin[] = {
+        "ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin",   "-xerror", "-y",
+        "-f",     "rawvideo",     "-pix_fmt",  "rgb24", "-s",         size,      "-framerate",
+        rate,     "-i",           "pipe:0",    "-vf",   kind->filter, "-c:v",    kind->encoder};
     size_t count = sizeof begin / sizeof *begin;
     memcpy(list, begin, sizeof begin);
     for (size_t i = 0; i < sizeof kind->options / sizeof *kind->options && kind->options[i]; i++)
