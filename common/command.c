@@ -2,6 +2,7 @@
 #include "common/file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <malloc.h>
 #include <math.h>
 #include <signal.h>
@@ -9,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char *command_name = "balloon";
 static bool command_quiet;
@@ -19,8 +21,18 @@ static void print_version(FILE *stream, struct argp_state *state)
     fprintf(stream, "%s %s\n", command_name, BALLOON_VERSION);
 }
 
+/* A file that is opened while one of them is closed would take its place, and get what is told. What holds
+ * the place instead cannot be read or written either. */
+static void hold_standard_streams(void)
+{
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; stream++)
+        if (fcntl(stream, F_GETFD) < 0)
+            open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY); /* the lowest that is free */
+}
+
 void command_begin(const char *program)
 {
+    hold_standard_streams();
     command_name = program;
     argp_program_version_hook = print_version;
     argp_err_exit_status = 2;
