@@ -46,6 +46,11 @@ static size_t number_length(const char *at)
     return length;
 }
 
+static bool is_beyond_ascii(char c)
+{
+    return (unsigned char)c >= 0x80;
+}
+
 static size_t text_length(const char *at)
 {
     size_t length = 1;
@@ -58,6 +63,15 @@ static size_t word_length(const char *at)
 {
     size_t length = 0;
     while (isalnum((unsigned char)at[length]) || (at[length] && strchr("-_*.", at[length])))
+        length++;
+    return length;
+}
+
+/* A letter of UTF-8, as a quote that a word processor set, is one mark. */
+static size_t mark_length(const char *at)
+{
+    size_t length = 1;
+    while (is_beyond_ascii(*at) && ((unsigned char)at[length] & 0xC0) == 0x80)
         length++;
     return length;
 }
@@ -85,7 +99,7 @@ static struct token next(struct scan *scan)
         length = word_length(at);
     } else if (*at) {
         token.kind = MARK;
-        length = 1;
+        length = mark_length(at);
     }
     token.length = length;
     pass(scan, length);
@@ -317,7 +331,7 @@ static bool read_value(struct reader *r, const struct token *token)
     if (token->kind == WORD && !in_group(r) && is(&then, '='))
         return say(r->slip, token->line, "a list is made of blocks: ( { %.*s = ...; }, { ... } )",
                    shown(token), token->from);
-    if (token->kind == WORD)
+    if (token->kind == WORD || is_beyond_ascii(*token->from))
         return say(r->slip, token->line,
                    "`%.*s` is no value; numbers are written with digits, text in quotes", shown(token),
                    token->from);

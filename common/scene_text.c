@@ -1,6 +1,7 @@
 #include "common/scene_text.h"
 #include "common/array.h"
 #include "common/scene_syntax.h"
+#include "common/text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -89,8 +90,8 @@ static enum status put_included(struct reading *r, struct scene_place place,
 static enum status put_text(struct reading *r, const char *path, const struct bytes *bytes, int depth,
                             struct error *err)
 {
-    const char *text = (const char *)bytes->data;
-    if (strlen(text) != bytes->size)
+    const char *text = (const char *)bytes->data + text_mark_length(bytes->data, bytes->size);
+    if (text + strlen(text) != (const char *)bytes->data + bytes->size)
         return error_set(err, STATUS_INPUT, "%s: is not text", path);
     enum status status = add_file(r->text, path, err);
     const char *file = status ? NULL : r->text->files.items[r->text->files.count - 1], *from = text;
@@ -106,7 +107,7 @@ static enum status put_text(struct reading *r, const char *path, const struct by
         from = include.end;
     }
     if (!status)
-        put(r, from, text + bytes->size);
+        put(r, from, text + strlen(text));
     return status;
 }
 

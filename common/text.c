@@ -6,9 +6,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+size_t text_mark_length(const void *data, size_t size)
+{
+    static const char mark[3] = "\xEF\xBB\xBF";
+    return size >= sizeof mark && !memcmp(data, mark, sizeof mark) ? sizeof mark : 0;
+}
+
 struct text text_of(const char *path, const void *data, size_t size)
 {
-    return (struct text){.path = path, .at = data, .end = (const char *)data + size, .line = 1};
+    const char *bytes = data;
+    return (struct text){
+        .path = path, .at = bytes + text_mark_length(data, size), .end = bytes + size, .line = 1};
 }
 
 bool text_ended(const struct text *text)

@@ -28,7 +28,10 @@ struct word {
     size_t length;
 };
 
-/* The text of a file's bytes, with the NUL behind them that file_read() promises. */
+/* How many bytes the byte order mark takes that editors of Windows put before UTF-8; 0: there is none. */
+size_t text_mark_length(const void *data, size_t size);
+
+/* The text of a file's bytes behind that mark, with the NUL behind them that file_read() promises. */
 struct text text_of(const char *path, const void *data, size_t size);
 
 bool text_ended(const struct text *text);
