@@ -275,7 +275,7 @@ static enum status find_stable(struct accuracy_plan *plan, struct error *err)
 }
 
 enum status accuracy_measure(const struct scene *scene, const struct mesh *meshes,
-                             const struct accuracy_options *options, struct accuracy_table *table,
+                             const struct pricing_options *options, struct accuracy_table *table,
                              struct error *err)
 {
     *table = (struct accuracy_table){0};

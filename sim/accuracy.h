@@ -21,7 +21,7 @@
 #ifndef SIM_ACCURACY_H
 #define SIM_ACCURACY_H
 
-#include "sim/sim.h"
+#include "sim/pricing.h"
 
 enum {
     ACCURACY_TIMES = 4,
@@ -30,14 +30,6 @@ enum {
     ACCURACY_FAILURES_MAX = 16, /* a line a method; a test holds that there are no more methods */
     ACCURACY_MEMBERS_LEAST = 4, /* of an ensemble */
     ACCURACY_MEMBERS = 8        /* at most */
-};
-
-struct accuracy_options {
-    double seconds; /* about how much time all may take */
-    /* Asked between steps, with the share that is done; false ends it all with
-     * STATUS_INTERRUPTED. NULL: nobody asks. */
-    bool (*go_on)(void *context, double done);
-    void *context;
 };
 
 /* Mean and standard deviation over an ensemble; NAN where there is none. */
@@ -97,7 +89,7 @@ struct accuracy_table {
  * references, STATUS_INPUT where the scene ends before a step, STATUS_INTERRUPTED, STATUS_NO_MEMORY; what an
  * integrator of the table fails in is no error but a line of the table. */
 enum status accuracy_measure(const struct scene *scene, const struct mesh *meshes,
-                             const struct accuracy_options *options, struct accuracy_table *table,
+                             const struct pricing_options *options, struct accuracy_table *table,
                              struct error *err);
 
 /* How many seconds the fastest method but auto takes for an error, by straight lines between its rows on

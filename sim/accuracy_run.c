@@ -7,14 +7,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 static int index_of(const char *integrator)
 {
@@ -84,14 +76,12 @@ static double share_done(const struct accuracy_run *run)
 
 enum status accuracy_step(struct accuracy_run *run, const struct accuracy_subject *subject, struct error *err)
 {
-    const struct accuracy_options *options = subject->options;
-    const double done = subject->done + subject->part * share_done(run);
-    if (options->go_on && !options->go_on(options->context, done))
-        return error_set(err, STATUS_INTERRUPTED, "interrupted; no table was made");
+    if (pricing_ask(subject->options, subject->done + subject->part * share_done(run), err))
+        return err->status;
     const uint64_t evaluations = run->sim.evaluations, products = run->sim.products;
-    const double began = now();
-    const enum status status = sim_step(&run->sim, err);
-    run->seconds += now() - began;
+    const double began = pricing_now();
+    const enum status status = pricing_step(subject->options, &run->sim, err);
+    run->seconds += pricing_now() - began;
     run->reached = run->sim.time;
     run->evaluations += run->sim.evaluations - evaluations;
     run->products += run->sim.products - products;

@@ -8,7 +8,7 @@
 struct accuracy_subject {
     const struct scene *scene;
     const struct mesh *meshes;
-    const struct accuracy_options *options;
+    const struct pricing_options *options;
     double done;                 /* share of the whole so far, for options->go_on() */
     double part;                 /* by how much the run at hand brings that on when it is over */
     double time[ACCURACY_TIMES]; /* s */

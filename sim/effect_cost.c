@@ -7,12 +7,11 @@
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 struct subject {
     const struct scene *scene;
     const struct mesh *meshes;
-    const struct effect_cost_options *options;
+    const struct pricing_options *options;
     double done, each; /* share of the whole so far; of a run */
 };
 
@@ -23,19 +22,11 @@ struct course {
     double first_break;                    /* s */
 };
 
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
 static enum status step(const struct subject *s, struct course *c, struct error *err)
 {
-    const struct effect_cost_options *o = s->options;
-    if (o->go_on && !o->go_on(o->context, s->done))
-        return error_set(err, STATUS_INTERRUPTED, "interrupted; no table was made");
-    const enum status status = sim_step(&c->sim, err);
+    if (pricing_ask(s->options, s->done, err))
+        return err->status;
+    const enum status status = pricing_step(s->options, &c->sim, err);
     c->sim.news_count = 0;
     if (c->sim.broken && isinf(c->first_break))
         c->first_break = c->sim.time;
@@ -55,10 +46,10 @@ static enum status go_to(const struct subject *s, struct course *c, double time,
                          struct error *err)
 {
     enum status status = STATUS_OK;
-    const double began = now();
+    const double began = pricing_now();
     while (!status && !is_at(&c->sim, time))
         status = step(s, c, err);
-    *seconds = now() - began;
+    *seconds = pricing_now() - began;
     return status;
 }
 
@@ -68,16 +59,16 @@ static enum status find_span(const struct subject *s, double limit, struct effec
                              double *seconds, struct error *err)
 {
     struct course whole = {.first_break = INFINITY};
-    const double began = now(), least = s->scene->time.step * EFFECT_COST_STRETCHES;
+    const double began = pricing_now(), least = s->scene->time.step * EFFECT_COST_STRETCHES;
     enum status status = sim_open(&whole.sim, s->scene, s->meshes, 1, err);
     table->bytes = whole.sim.bytes;
-    while (!status && !sim_at_end(&whole.sim) && (now() - began < limit || whole.sim.time < least))
+    while (!status && !sim_at_end(&whole.sim) && (pricing_now() - began < limit || whole.sim.time < least))
         status = step(s, &whole, err);
     if (!status && whole.sim.steps == 0)
         status = error_set(err, STATUS_INPUT,
                            "--effect-cost: time.end = %g is over before a step of time.step = %g",
                            s->scene->time.end, s->scene->time.step);
-    *seconds = now() - began;
+    *seconds = pricing_now() - began;
     table->end = s->scene->time.end;
     table->span = fmin(whole.sim.time, table->end);
     if (!status) {
@@ -250,7 +241,7 @@ static enum status measure_row(struct subject *s, struct effect_cost_table *tabl
 }
 
 enum status effect_cost_measure(const struct scene *scene, const struct mesh *meshes,
-                                const struct effect_cost_options *options, struct effect_cost_table *table,
+                                const struct pricing_options *options, struct effect_cost_table *table,
                                 struct error *err)
 {
     enum { GOES_LEAST = 2, GOES_MOST = 8 };

@@ -14,21 +14,13 @@
 #ifndef SIM_EFFECT_COST_H
 #define SIM_EFFECT_COST_H
 
-#include "sim/sim.h"
+#include "sim/pricing.h"
 
 enum { EFFECT_COST_ROWS_MAX = 32, EFFECT_COST_STRETCHES = 16 };
 
 /* Below this share of the radius a change cannot be seen: a tenth of a pixel, where
  * the radius has a hundred. */
 #define EFFECT_COST_VISIBLE 1e-3
-
-struct effect_cost_options {
-    double seconds; /* about how much time all may take */
-    /* Asked between steps, with the share that is done; false ends it all with
-     * STATUS_INTERRUPTED. NULL: nobody asks. */
-    bool (*go_on)(void *context, double done);
-    void *context;
-};
 
 /* The scene without one effect. */
 struct effect_cost_row {
@@ -63,7 +55,7 @@ struct effect_cost_table {
 /* meshes as for sim_open(). Errors: those of sim_open() and sim_step() for the whole scene;
  * STATUS_INPUT where that ends before a step; STATUS_INTERRUPTED; STATUS_NO_MEMORY. */
 enum status effect_cost_measure(const struct scene *scene, const struct mesh *meshes,
-                                const struct effect_cost_options *options, struct effect_cost_table *table,
+                                const struct pricing_options *options, struct effect_cost_table *table,
                                 struct error *err);
 
 /* Whether the skin first breaks at another time, by more than one in a hundred, or only with or without

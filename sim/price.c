@@ -162,7 +162,8 @@ static enum status measure(const struct scene *scene, const struct mesh *meshes,
 {
     struct price_table *prices = context;
     struct price_part runs = {0, 0.9}, pictures = {0.9, 1};
-    struct accuracy_options options = {.seconds = PRICE_SECONDS, .go_on = price_go_on, .context = &runs};
+    struct pricing_options options = {
+        .seconds = PRICE_SECONDS, .go_on = price_go_on, .context = &runs, .goes_on = price_goes_on};
     enum status status = accuracy_measure(scene, meshes, &options, &prices->accuracy, err);
     options.context = &pictures;
     if (!status)

@@ -101,7 +101,8 @@ static enum status draw(const void *context, const char *scene, const char *path
 static enum status measure(const struct scene *scene, const struct mesh *meshes, void *table,
                            struct error *err)
 {
-    const struct effect_cost_options options = {.seconds = PRICE_SECONDS, .go_on = price_go_on};
+    const struct pricing_options options = {
+        .seconds = PRICE_SECONDS, .go_on = price_go_on, .goes_on = price_goes_on};
     return effect_cost_measure(scene, meshes, &options, table, err);
 }
 

@@ -38,6 +38,12 @@ bool price_go_on(void *context, double done)
     return !interrupt_caught();
 }
 
+bool price_goes_on(const struct sim *sim)
+{
+    (void)sim;
+    return !interrupt_caught();
+}
+
 /* With a progress bar. */
 static enum status measure(const struct price_kind *kind, const struct scene *scene,
                            const struct mesh *meshes, void *table, struct error *err)

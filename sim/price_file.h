@@ -12,6 +12,8 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+struct sim;
+
 enum { PRICE_SECONDS = 60 }; /* about how long a table takes */
 
 /* A kind of table: `size` bytes, which begin as 0. */
@@ -40,5 +42,8 @@ struct price_part {
     double from, to;
 };
 bool price_go_on(void *context, double done);
+
+/* The same within a step, with nothing to show. */
+bool price_goes_on(const struct sim *sim);
 
 #endif

@@ -20,7 +20,7 @@ struct drawing {
     struct render *render;
     struct render_view view;
     struct image image, reference;
-    const struct accuracy_options *options;
+    const struct pricing_options *options;
     struct price_picture reference_row;
     size_t wanted; /* rows */
 };
@@ -85,10 +85,7 @@ static void find_best(struct price_pictures *pictures)
 
 static enum status ask(const struct drawing *d, const struct price_pictures *pictures, struct error *err)
 {
-    const double done = (double)pictures->count / (double)d->wanted;
-    if (!d->options->go_on || d->options->go_on(d->options->context, done))
-        return STATUS_OK;
-    return error_set(err, STATUS_INTERRUPTED, "interrupted; no table was made");
+    return pricing_ask(d->options, (double)pictures->count / (double)d->wanted, err);
 }
 
 /* By lists, with as many samples as there is time for. */
@@ -167,7 +164,7 @@ static enum status give_reason(enum status status, struct price_pictures *pictur
 }
 
 enum status price_pictures_measure(const struct scene *scene, const struct mesh *meshes, double time,
-                                   const struct accuracy_options *options, struct price_pictures *pictures,
+                                   const struct pricing_options *options, struct price_pictures *pictures,
                                    struct error *err)
 {
     const struct accuracy_subject subject = {.scene = scene, .meshes = meshes, .options = options};

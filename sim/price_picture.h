@@ -38,7 +38,7 @@ struct price_pictures {
  * not looked at. What cannot be stepped or drawn is no error but pictures->reason. Errors:
  * STATUS_INTERRUPTED, STATUS_NO_MEMORY. */
 enum status price_pictures_measure(const struct scene *scene, const struct mesh *meshes, double time,
-                                   const struct accuracy_options *options, struct price_pictures *pictures,
+                                   const struct pricing_options *options, struct price_pictures *pictures,
                                    struct error *err);
 
 #endif

@@ -14,7 +14,7 @@
     SETTINGS("balloons[0].point_mass=1", "balloons[0].threshold=1.2", "balloons[0].pressure=200", \
              "time.end=6", "time.guard=off")
 
-static enum status measure(const char *const *settings, const struct accuracy_options *options,
+static enum status measure(const char *const *settings, const struct pricing_options *options,
                            struct accuracy_table *table, struct error *err)
 {
     struct balloon b;
@@ -52,7 +52,7 @@ static void every_method_is_there_and_errors_fall_with_its_order(void **state)
     (void)state;
     static struct accuracy_table table;
     struct error err = {0};
-    assert_ok(measure(CALM, &(struct accuracy_options){.seconds = 10 * slowdown()}, &table, &err), &err);
+    assert_ok(measure(CALM, &(struct pricing_options){.seconds = 10 * slowdown()}, &table, &err), &err);
     size_t methods = 0;
     for (; integrators[methods]; methods++) {
         size_t first = 0;
@@ -76,7 +76,7 @@ static void references_agree_ten_times_better_than_the_best_row(void **state)
     (void)state;
     static struct accuracy_table table;
     struct error err = {0};
-    assert_ok(measure(CALM, &(struct accuracy_options){.seconds = 2 * slowdown()}, &table, &err), &err);
+    assert_ok(measure(CALM, &(struct pricing_options){.seconds = 2 * slowdown()}, &table, &err), &err);
     for (size_t i = 0; i < table.count; i++)
         assert_true(table.rows[i].error >= 10 * table.agreement);
     assert_true(table.agreement < 1e-10);
@@ -96,7 +96,7 @@ static void auto_has_no_order_where_it_takes_another_method(void **state)
     struct error err = {0};
     assert_ok(measure(SETTINGS("balloons[0].pressure=4", "balloons[0].threshold=50", "time.step=0.025",
                                "time.end=1"),
-                      &(struct accuracy_options){.seconds = 2 * slowdown()}, &table, &err),
+                      &(struct pricing_options){.seconds = 2 * slowdown()}, &table, &err),
               &err);
     size_t first = 0, others = 0;
     const size_t count = rows_of(&table, integrator_find("auto"), &first);
@@ -116,7 +116,7 @@ static void the_span_ends_before_the_first_break_and_ensembles_go_past_it(void *
     static struct accuracy_table table;
     struct error err = {0};
     int ensembles = 0;
-    assert_ok(measure(BURSTING, &(struct accuracy_options){.seconds = 2 * slowdown()}, &table, &err), &err);
+    assert_ok(measure(BURSTING, &(struct pricing_options){.seconds = 2 * slowdown()}, &table, &err), &err);
     assert_true(isfinite(table.first_break) && table.span < table.first_break);
     assert_true(table.burst_end > table.burst && table.burst >= table.first_break);
     for (size_t i = 0; i < table.count; i++) {
@@ -140,7 +140,7 @@ static void references_agree_on_gas_as_well(void **state)
     assert_ok(measure(SETTINGS("balloons[0].gas.ambient=10", "balloons[0].gas.pump=1.5",
                                "balloons[0].gas.pump_until=1.3", "balloons[0].threshold=100", "time.end=0.8",
                                "time.guard=off"),
-                      &(struct accuracy_options){.seconds = 20 * slowdown()}, &table, &err),
+                      &(struct pricing_options){.seconds = 20 * slowdown()}, &table, &err),
               &err);
     print_message("# %g up to %g s\n", table.agreement, table.span);
     assert_near(table.span, 0.8, 1e-12);
@@ -162,9 +162,25 @@ static void it_ends_when_somebody_wants_it_to(void **state)
     static struct accuracy_table table;
     struct error err = {0};
     int asked = 0;
-    const struct accuracy_options options = {.seconds = 3 * slowdown(), .go_on = stop, .context = &asked};
+    const struct pricing_options options = {.seconds = 3 * slowdown(), .go_on = stop, .context = &asked};
     assert_int_equal(measure(CALM, &options, &table, &err), STATUS_INTERRUPTED);
     assert_int_equal(asked, 20);
+}
+
+static bool never(const struct sim *sim)
+{
+    (void)sim;
+    return false;
+}
+
+/* Trials of auto are long, and ask. */
+static void it_ends_within_a_step_too(void **state)
+{
+    (void)state;
+    static struct accuracy_table table;
+    struct error err = {0};
+    const struct pricing_options options = {.seconds = 3 * slowdown(), .goes_on = never};
+    assert_refused(measure(CALM, &options, &table, &err), STATUS_INTERRUPTED, "no table was made", &err);
 }
 
 struct told {
@@ -190,7 +206,7 @@ static void progress_moves_within_a_run_and_never_goes_back(void **state)
     static struct accuracy_table table;
     struct error err = {0};
     struct told told = {0};
-    const struct accuracy_options options = {.seconds = 10 * slowdown(), .go_on = note, .context = &told};
+    const struct pricing_options options = {.seconds = 10 * slowdown(), .go_on = note, .context = &told};
     assert_ok(measure(CALM, &options, &table, &err), &err);
     assert_false(told.back);
     assert_true(told.moves[0] >= 20 && told.moves[1] >= 100);
@@ -205,6 +221,7 @@ int main(void)
         cmocka_unit_test(the_span_ends_before_the_first_break_and_ensembles_go_past_it),
         cmocka_unit_test(references_agree_on_gas_as_well),
         cmocka_unit_test(it_ends_when_somebody_wants_it_to),
+        cmocka_unit_test(it_ends_within_a_step_too),
         cmocka_unit_test(progress_moves_within_a_run_and_never_goes_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -34,7 +34,7 @@ static void measure(const char *const *settings, double seconds, struct accuracy
     struct error err = {0};
     struct balloon b;
     open_balloon(&b, 1, settings);
-    assert_ok(accuracy_measure(&b.scene, &b.mesh, &(struct accuracy_options){.seconds = seconds * slowdown()},
+    assert_ok(accuracy_measure(&b.scene, &b.mesh, &(struct pricing_options){.seconds = seconds * slowdown()},
                                table, &err),
               &err);
     close_balloon(&b);

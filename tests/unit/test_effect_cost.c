@@ -10,9 +10,8 @@ static struct effect_cost_table *measure(const char *const *settings)
     struct error err = {0};
     struct effect_cost_table *table = calloc(1, sizeof *table);
     open_balloon(&b, 1, settings);
-    assert_ok(
-        effect_cost_measure(&b.scene, &b.mesh, &(struct effect_cost_options){.seconds = 0.2}, table, &err),
-        &err);
+    assert_ok(effect_cost_measure(&b.scene, &b.mesh, &(struct pricing_options){.seconds = 0.2}, table, &err),
+              &err);
     close_balloon(&b);
     return table;
 }
@@ -95,6 +94,12 @@ static bool never(void *context, double done)
     return false;
 }
 
+static bool never_within(const struct sim *sim)
+{
+    (void)sim;
+    return false;
+}
+
 static void whoever_asks_can_end_it(void **state)
 {
     (void)state;
@@ -102,8 +107,13 @@ static void whoever_asks_can_end_it(void **state)
     struct balloon b;
     struct error err = {0};
     open_balloon(&b, 1, SETTINGS(CALM, "drag.air_density=1"));
-    const struct effect_cost_options options = {.seconds = 1, .go_on = never};
+    const struct pricing_options options = {.seconds = 1, .go_on = never};
     assert_refused(effect_cost_measure(&b.scene, &b.mesh, &options, &table, &err), STATUS_INTERRUPTED,
+                   "no table was made", &err);
+    close_balloon(&b);
+    open_balloon(&b, 1, SETTINGS(CALM, "drag.air_density=1", "time.integrator=auto"));
+    const struct pricing_options within = {.seconds = 1, .goes_on = never_within}; /* auto's trials ask */
+    assert_refused(effect_cost_measure(&b.scene, &b.mesh, &within, &table, &err), STATUS_INTERRUPTED,
                    "no table was made", &err);
     close_balloon(&b);
 }

@@ -13,7 +13,7 @@
     SETTINGS("balloons[0].point_mass=1", "balloons[0].pressure=4", "balloons[0].threshold=100", \
              "balloons[0].opacity=0.6", "time.end=0.4", "view.size=[320,120]")
 
-static enum status measure(const char *const *settings, const struct accuracy_options *options,
+static enum status measure(const char *const *settings, const struct pricing_options *options,
                            struct price_pictures *pictures, struct error *err)
 {
     struct balloon b;
@@ -38,7 +38,7 @@ static int measure_swelling(void **state)
 {
     (void)state;
     struct error err = {0};
-    assert_ok(measure(SWELLING, &(struct accuracy_options){0}, &swelling, &err), &err);
+    assert_ok(measure(SWELLING, &(struct pricing_options){0}, &swelling, &err), &err);
     return 0;
 }
 
@@ -110,7 +110,7 @@ static void what_cannot_be_drawn_is_a_reason_and_no_error(void **state)
     (void)state;
     struct price_pictures pictures;
     struct error err = {0};
-    assert_ok(measure(SETTINGS("view.camera=[1e-300,0,0]"), &(struct accuracy_options){0}, &pictures, &err),
+    assert_ok(measure(SETTINGS("view.camera=[1e-300,0,0]"), &(struct pricing_options){0}, &pictures, &err),
               &err);
     assert_int_equal(pictures.count, 0);
     assert_non_null(strstr(pictures.reason, "up"));
@@ -135,8 +135,8 @@ static void it_ends_when_it_is_told_to(void **state)
     struct price_pictures pictures;
     struct error err = {0};
     struct patience short_one = {0, 3}, long_one = {0, 12};
-    const struct accuracy_options in_steps = {.go_on = while_it_lasts, .context = &short_one},
-                                  in_pictures = {.go_on = while_it_lasts, .context = &long_one};
+    const struct pricing_options in_steps = {.go_on = while_it_lasts, .context = &short_one},
+                                 in_pictures = {.go_on = while_it_lasts, .context = &long_one};
     assert_int_equal(measure(SWELLING, &in_steps, &pictures, &err), STATUS_INTERRUPTED);
     assert_int_equal(short_one.asked, 3);
     assert_true(pictures.time < 0.19);
