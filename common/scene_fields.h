@@ -257,6 +257,12 @@ struct scene_field {
     const char *const *choices; /* NULL-terminated, for SCENE_CHOICE */
 };
 
+/* How many digits its range is told with: whole numbers' with all. */
+static inline int scene_range_digits(const struct scene_field *field)
+{
+    return field->type == SCENE_WHOLE ? 10 : 6;
+}
+
 /* A block of keys: the scene's own, a list's (balloons, schedule), or an effect's inside a balloon. */
 struct scene_block {
     const char *name;   /* "time", "balloons", "rip", ... */

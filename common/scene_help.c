@@ -30,7 +30,7 @@ static void write_facts(FILE *stream, const struct scene_field *field)
     for (int i = 0; field->choices && field->choices[i]; i++)
         fprintf(stream, "%s \"%s\"", i ? "," : "", field->choices[i]);
     if (field->least < field->most)
-        fprintf(stream, " from %g to %g", field->least, field->most);
+        fprintf(stream, " from %g to %.*g", field->least, scene_range_digits(field), field->most);
     if (*field->unit)
         fprintf(stream, ", in %s", field->unit);
     if (*field->standard)

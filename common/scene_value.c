@@ -119,8 +119,9 @@ enum status scene_read_number(const struct scene_field *field, const config_sett
                             *field->unit ? " in " : "", field->unit,
                             config_setting_type(value) == CONFIG_TYPE_STRING ? ", without quotes" : "");
     if (!(number >= field->least && number <= field->most))
-        return scene_refuse(source, value, err, "%s is %g; it must be from %g to %g%s%s", field->key, number,
-                            field->least, field->most, *field->unit ? " " : "", field->unit);
+        return scene_refuse(source, value, err, "%s is %.15g; it must be from %g to %.*g%s%s", field->key,
+                            number, field->least, scene_range_digits(field), field->most,
+                            *field->unit ? " " : "", field->unit);
     *out = number;
     return STATUS_OK;
 }

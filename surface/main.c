@@ -97,7 +97,12 @@ static void set_sigma(struct arguments *arguments, struct argp_state *state, con
                    sizeof number);
     snprintf(number, sizeof number, "%.*s", (int)(length - arguments->sigma_in_units), argument);
     double least = arguments->sigma_in_units ? 1e-5 : 0.01, most = arguments->sigma_in_units ? 10 : 1000;
-    arguments->options.field.sigma = command_number(state, "--sigma", number, least, most);
+    const char *unit = arguments->sigma_in_units ? "u" : "";
+    double sigma = 0;
+    if (!number_parse(number, &sigma) || !(sigma >= least && sigma <= most))
+        argp_error(state, "--sigma %s: must be a number from %g%s to %g%s", argument, least, unit, most,
+                   unit);
+    arguments->options.field.sigma = sigma;
 }
 
 static void set_seeds(struct arguments *arguments, struct argp_state *state, const char *argument)

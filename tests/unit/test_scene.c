@@ -106,7 +106,7 @@ static void what_is_wrong_is_named_with_its_line(void **state)
         {"time = { step = \"fast\"; };", ":1: step must be a number in s"},
         {"time = {\n\n step = 0; };", ":3: step is 0; it must be from 1e-09 to 1e+06 s"},
         {"time = { step = -1.0; };", ":1: step is -1"},
-        {"time = { step = 3000000000L; };", ":1: step is 3e+09"},
+        {"time = { step = 3000000000L; };", ":1: step is 3000000000;"},
         {"balloons = ( { mesh = \"a.ply\"; } );\nschedule = ( { at = 1; balloon = 0.5; } );",
          ":2: balloon is 0.5; it must be a whole number"},
         {"time = { step = 1e300; };", ":1: step is 1e+300"},

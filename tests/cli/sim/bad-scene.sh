@@ -34,6 +34,9 @@ for key in spring damping threshold pressure; do
     done
 done
 refused 1 'unknown key `gass` .*did you mean `gas`' balloon-sim m.ply --set 'balloons[0].gass.fill=1'
+# What is hardly out of range is not rounded into it.
+refused 1 '^balloon-sim: --set: tolerance is 0.100000001; it must be from 1e-12 to 0.1 radii' balloon-sim m.ply --set time.tolerance=0.100000001
+refused 1 '^balloon-sim: --set: seed is 2147483648; it must be from 0 to 2147483647' balloon-sim m.ply --set 'balloons[0].fracture.seed=2147483648.0'
 
 # A block in the wrong place is told its own; text without quotes, and what is not a scene at all.
 bad 's.cfg:2: the block `gas` stands inside a balloon' 'balloons = ( { mesh = "m.ply"; } );

@@ -29,6 +29,7 @@ expect 0 balloon-surface --quiet ball.oct --sigma 31.2 --cube-size 0.1 --relax 0
 refused 2 'sigma 1001: must be a number from 0\.01 to 1000' balloon-surface cube.oct --sigma 1001 -o a.ply
 # A part of it is a number.
 refused 2 'sigma is of 80 characters' balloon-surface cube.oct --sigma "$(printf '1.%078d' 5)" -o a.ply
+refused 2 "sigma 11u: must be a number from 1e-05u to 10u" balloon-surface cube.oct --sigma 11u -o a.ply
 for sigma in 0 -1 nan inf 1e300 '' u x 0.3x; do
     refused 2 "sigma $sigma?.*: must be a number" balloon-surface cube.oct --sigma "$sigma" -o a.ply
 done
