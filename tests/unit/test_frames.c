@@ -187,7 +187,7 @@ static void ffmpeg_gets_every_picture_in_order(void **state)
 static void a_movie_that_fails_leaves_the_old_one_and_no_other(void **state)
 {
     (void)state;
-    const char *const scripts[] = {"echo first >&2; echo 'no such codec' >&2; exit 1",
+    const char *const scripts[] = {"echo 'no such codec' >&2; echo last >&2; exit 1",
                                    "head -c 5000 >\"$output\"; echo 'no such codec' >&2; exit 1",
                                    "cat >\"$output\"; echo 'no such codec' >&2; exit 1"};
     for (int i = 0; i < 3; i++) {
