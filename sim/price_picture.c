@@ -42,16 +42,12 @@ static enum status draw(struct drawing *d, struct price_picture *row, struct err
 }
 
 /* One picture and its price. */
-static enum status price(struct drawing *d, int order, int samples, struct price_picture *row,
+static enum status price(struct drawing *d, enum scene_order order, int samples, struct price_picture *row,
                          struct error *err)
 {
-    static const enum render_order orders[] = {[SCENE_ORDER_NONE] = RENDER_NONE,
-                                               [SCENE_ORDER_SORT] = RENDER_SORT,
-                                               [SCENE_ORDER_PEEL] = RENDER_PEEL,
-                                               [SCENE_ORDER_LIST] = RENDER_LIST};
     enum status status = STATUS_OK;
     *row = (struct price_picture){.order = order, .samples = samples, .seconds = INFINITY};
-    d->view.order = orders[order];
+    d->view.order = skins_order(order);
     d->view.samples = samples;
     const double began = now();
     for (int i = 0; i < TIMES && now() - began < enough && !status; i++)
@@ -106,8 +102,8 @@ static enum status make_reference(struct drawing *d, struct price_pictures *pict
     return status;
 }
 
-static enum status add_row(struct drawing *d, int order, int samples, struct price_pictures *pictures,
-                           struct error *err)
+static enum status add_row(struct drawing *d, enum scene_order order, int samples,
+                           struct price_pictures *pictures, struct error *err)
 {
     struct price_picture *row = &pictures->rows[pictures->count];
     enum status status = ask(d, pictures, err);
@@ -125,7 +121,7 @@ static enum status add_row(struct drawing *d, int order, int samples, struct pri
 static enum status draw_all(struct drawing *d, struct price_pictures *pictures, struct error *err)
 {
     enum status status = make_reference(d, pictures, err);
-    for (int order = SCENE_ORDER_NONE; order <= SCENE_ORDER_LIST && !status; order++)
+    for (enum scene_order order = SCENE_ORDER_NONE; order <= SCENE_ORDER_LIST && !status; order++)
         for (int samples = 1; samples <= pictures->samples && !status; samples++)
             status = add_row(d, order, samples, pictures, err);
     find_best(pictures);

@@ -144,6 +144,15 @@ void skins_floor(const struct skins *skins, const double ball[4], struct render_
     view->floor_height = level ? ground->height : fmin(ball[1] - below * ball[3], props_foot(skins->sim));
 }
 
+enum render_order skins_order(enum scene_order order)
+{
+    static const enum render_order orders[] = {[SCENE_ORDER_NONE] = RENDER_NONE,
+                                               [SCENE_ORDER_SORT] = RENDER_SORT,
+                                               [SCENE_ORDER_PEEL] = RENDER_PEEL,
+                                               [SCENE_ORDER_LIST] = RENDER_LIST};
+    return orders[order];
+}
+
 void skins_view(const struct scene_view *scene, struct render_view *view)
 {
     static const enum render_stereo stereo[] = {
@@ -153,16 +162,12 @@ void skins_view(const struct scene_view *scene, struct render_view *view)
         [SCENE_QUAD] = RENDER_PARALLEL,     [SCENE_LEFT] = RENDER_LEFT,
         [SCENE_RIGHT] = RENDER_RIGHT,       [SCENE_SEPARATE] = RENDER_PARALLEL,
     };
-    static const enum render_order orders[] = {[SCENE_ORDER_NONE] = RENDER_NONE,
-                                               [SCENE_ORDER_SORT] = RENDER_SORT,
-                                               [SCENE_ORDER_PEEL] = RENDER_PEEL,
-                                               [SCENE_ORDER_LIST] = RENDER_LIST};
     view->width = scene->size[0];
     view->height = scene->size[1];
     view->stereo = stereo[scene->stereo];
     view->squeezed = scene->squeezed == 1;
     view->style = scene->style == SCENE_LATEX ? RENDER_LATEX : RENDER_PAPER;
-    view->order = orders[scene->order];
+    view->order = skins_order(scene->order);
     view->samples = scene->samples;
 }
 

@@ -29,6 +29,8 @@ void skins_update(struct skins *skins);
  * skins_update(). */
 struct render_scene skins_scene(struct skins *skins, const struct render_view *view);
 
+enum render_order skins_order(enum scene_order order);
+
 /* What the scene says of the picture but its camera: size, stereo, style, order, samples. Eyes that are
  * separate in files are side by side where there is one picture. */
 void skins_view(const struct scene_view *scene, struct render_view *view);
