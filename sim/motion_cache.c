@@ -1,4 +1,5 @@
 #include "sim/motion_cache.h"
+#include "common/file.h"
 #include "common/mesh_files.h"
 #include "common/point_cache.h"
 #include "sim/skin_mesh.h"
@@ -19,6 +20,16 @@ char *motion_cache_mesh_name(const char *path)
     if (mesh)
         memcpy(mesh + strlen(mesh) - 3, "ply", 3);
     return mesh;
+}
+
+enum status motion_cache_check(const char *path, struct error *err)
+{
+    char *mesh = motion_cache_mesh_name(path);
+    enum status status = mesh ? file_out_check(path, err) : error_no_memory(err, path);
+    if (!status)
+        status = file_out_check(mesh, err);
+    free(mesh);
+    return status;
 }
 
 static enum status open_files(struct motion_cache *cache, const char *path, uint64_t first, struct error *err)

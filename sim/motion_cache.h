@@ -11,6 +11,9 @@ struct motion_cache;
 /* What FILE.ply is called beside `path`, FILE.pc2; free() it. NULL: no memory. */
 char *motion_cache_mesh_name(const char *path);
 
+/* Whether both files could be written. Errors: STATUS_FILE, STATUS_NO_MEMORY. */
+enum status motion_cache_check(const char *path, struct error *err);
+
 /* `path` ends in .pc2; first: number of the first frame. `sim` is borrowed. Errors: STATUS_FILE,
  * STATUS_NO_MEMORY, STATUS_RANGE. */
 enum status motion_cache_open(struct sim *sim, const char *path, uint64_t first, struct motion_cache **cache,

@@ -157,9 +157,11 @@ static bool goes_on(const struct sim *sim)
 /* What cannot be written is found out before the work, not after it. */
 static enum status check_files(const struct options *options, struct error *err)
 {
-    const char *const paths[] = {options->checkpoint, options->pieces, options->mesh,
-                                 options->plot,       options->log,    options->cache};
+    const char *const paths[] = {options->checkpoint, options->pieces, options->mesh, options->plot,
+                                 options->log};
     enum status status = options->plot ? plot_check(options->plot, err) : STATUS_OK;
+    if (!status && options->cache)
+        status = motion_cache_check(options->cache, err);
     for (size_t i = 0; i < sizeof paths / sizeof *paths && !status; i++)
         status = paths[i] ? file_out_check(paths[i], err) : STATUS_OK;
     return status;

@@ -36,6 +36,11 @@ for output in '--frames /proc/f' '--mesh-series /proc/f/' '--movie /proc/f.mp4' 
     '--point-cache /proc/f.pc2' '--pieces /proc/f' '--checkpoint /proc/f' '-o /proc/f.ply'; do
     refused 1 '^balloon-sim: /proc/f[a-z0-9.]*: cannot create: ' balloon-sim m.ply --check $output
 done
+mkdir beside.ply # the mesh that the point cache moves
+for check in '' --check; do
+    refused 1 'beside.ply: is a folder' balloon-sim m.ply $short $check --point-cache beside.pc2
+done
+rmdir beside.ply
 mkdir cost.png # whose table could be written beside it
 for check in '' --check; do
     refused 1 '^balloon-sim: cost.png: is a folder; give the name of a file in it$' balloon-sim m.ply $short --accuracy-cost cost.png $check
