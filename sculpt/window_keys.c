@@ -99,6 +99,7 @@ static void answer_name(struct app *app, int key, int modifiers)
 
 static void toggle_balloon(struct app *app)
 {
+    app_say(app, "");
     app->preview = !app->preview;
     if (app->preview)
         app_remake_balloon(app);
@@ -108,6 +109,8 @@ static void toggle_balloon(struct app *app)
 static void toggle_inflation(struct app *app)
 {
     struct error err = {0};
+    if (!app->preview)
+        app_say(app, "");
     if (app->preview && app->balloon.inflated) {
         app_remake_balloon(app); /* back to rest */
         return;

@@ -80,6 +80,22 @@ press p
 picture balloon
 press i
 picture inflating
+if command -v import >/dev/null; then # what was said of the one is not said beside the other
+    corner() { import -window "$window" -crop 12x12+8+8 +repage "$1.ppm"; }
+    corner silent
+    click 350 250
+    corner told
+    cmp -s silent.ppm told.ppm && fail "that a balloon is for looking is not seen"
+    press p
+    corner back
+    cmp -s silent.ppm back.ppm || fail "that a balloon is for looking is said beside the sculpture"
+    press ctrl+y ctrl+y # there is nothing more to do again
+    corner told
+    cmp -s silent.ppm told.ppm && fail "that there is nothing more to do again is not seen"
+    press i
+    corner inflating
+    cmp -s silent.ppm inflating.ppm || fail "what was said of the sculpture is said beside the balloon"
+fi
 press p
 
 press ctrl+s
