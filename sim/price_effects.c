@@ -106,11 +106,17 @@ static enum status measure(const struct scene *scene, const struct mesh *meshes,
     return effect_cost_measure(scene, meshes, &options, table, err);
 }
 
+enum status price_effects_check(const struct scene *scene, const char *path, struct error *err)
+{
+    if (effects_count(scene) == 0)
+        return error_set(err, STATUS_INPUT, "%s: has no effects: there is nothing to leave out", scene->path);
+    return price_check(path, err);
+}
+
 enum status price_effects(const struct scene *scene, const struct mesh *meshes, const char *path,
                           struct error *err)
 {
     static const struct price_kind kind = {sizeof(struct effect_cost_table), measure, print_table, draw};
-    if (effects_count(scene) == 0)
-        return error_set(err, STATUS_INPUT, "%s: has no effects: there is nothing to leave out", scene->path);
-    return price_make(&kind, scene, meshes, path, err);
+    const enum status status = price_effects_check(scene, path, err);
+    return status ? status : price_make(&kind, scene, meshes, path, err);
 }

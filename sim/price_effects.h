@@ -11,4 +11,7 @@
 enum status price_effects(const struct scene *scene, const struct mesh *meshes, const char *path,
                           struct error *err);
 
+/* Whether that could begin: the errors that it has before a step is taken. */
+enum status price_effects_check(const struct scene *scene, const char *path, struct error *err);
+
 #endif

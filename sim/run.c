@@ -10,6 +10,7 @@
 #include "sim/news.h"
 #include "sim/outputs.h"
 #include "sim/piece_table.h"
+#include "sim/price_effects.h"
 #include "sim/price_file.h"
 
 #include <inttypes.h>
@@ -186,19 +187,31 @@ static enum status begin(struct run *run, struct error *err)
     return status;
 }
 
+static enum status check_pricing(const struct options *options, const struct sim *sim, struct error *err)
+{
+    const bool accuracy = options->accuracy_cost;
+    const struct scene_time *time = &sim->scene->time;
+    enum status status = accuracy ? price_check(options->accuracy_cost, err)
+                                  : price_effects_check(sim->scene, options->effect_cost, err);
+    if (!status && (accuracy ? time->step / 2 >= time->end : sim_at_end(sim)))
+        status = error_set(err, STATUS_INPUT, "%s: time.end = %g is over before a step of time.step = %g",
+                           accuracy ? "--accuracy-cost" : "--effect-cost", time->end, time->step);
+    return status;
+}
+
 enum status run_check(const struct options *options, struct sim *sim, struct error *err)
 {
     struct checkpoint_run past = {0};
     enum status status = outputs_check(options, sim, err);
     if (!status)
         status = check_files(options, err);
-    if (!status && options->accuracy_cost)
-        status = price_check(options->accuracy_cost, err);
-    if (!status && options->effect_cost)
-        status = price_check(options->effect_cost, err);
+    if (!status && (options->accuracy_cost || options->effect_cost))
+        status = check_pricing(options, sim, err);
     if (!status && options->resume)
         status = checkpoint_load(options->resume, sim, &past, err);
     free(past.rows);
+    if (!status && !options->accuracy_cost) /* which lets all steps go */
+        status = sim_may_step(sim, err);
     return status;
 }
 

@@ -273,6 +273,10 @@ void sim_clear(struct sim *sim);
  * left as it is, for a look; STATUS_INTERRUPTED by goes_on, the state as before the step. */
 enum status sim_step(struct sim *sim, struct error *err);
 
+/* Whether a step could be begun: STATUS_DIVERGED where the guard refuses it. What the schedule changes by now
+ * is changed, and the step is split: sim_step() goes on from there. */
+enum status sim_may_step(struct sim *sim, struct error *err);
+
 /* Forces on every point at the current positions and velocities; for the integrators. */
 void sim_forces(struct sim *sim);
 

@@ -165,6 +165,28 @@ static enum status begin_step(struct sim *sim, struct error *err)
     return guard_step(sim, first, err);
 }
 
+static bool is_adaptive(const struct sim *sim)
+{
+    return sim->integrator->flags & INTEGRATOR_ADAPTIVE;
+}
+
+enum status sim_may_step(struct sim *sim, struct error *err)
+{
+    double longest;
+    if (sim_at_end(sim))
+        return STATUS_OK;
+    enum status status = STATUS_OK;
+    if (!sim->integrator->choose) {
+        status = begin_step(sim, err);
+    } else { /* it finds what is stable for the points: what moves beside them is alike for all */
+        change_by_schedule(sim);
+        guard_stable_step(sim);
+        if (guard_following(sim).step * GUARD_PARTS_MAX < sim->whole_step)
+            status = guard_longest_step(sim, &longest, err);
+    }
+    return status || !is_adaptive(sim) ? status : guard_longest_step(sim, &longest, err);
+}
+
 /* When a method that chooses its own steps must stop: at the next change, by the user or of what lets go or
  * opens, or at the end. */
 static double next_due(const struct sim *sim)
@@ -174,11 +196,6 @@ static double next_due(const struct sim *sim)
     if (sim->next_change < scene->schedule_count)
         due = fmin(due, scene->schedule[sim->next_change].at);
     return due;
-}
-
-static bool is_adaptive(const struct sim *sim)
-{
-    return sim->integrator->flags & INTEGRATOR_ADAPTIVE;
 }
 
 /* Part 1: positions and velocities, by a method that asks sim_forces() as often as its order needs. */

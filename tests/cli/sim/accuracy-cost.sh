@@ -59,6 +59,7 @@ fi
 # of what makes no step nothing can be told
 refused 1 'the first run: time\.end = 0 is over before a step of time\.step = 0\.025$' \
     balloon-sim cube.ply --set time.end=0 --accuracy-cost cost.tsv
+refused 1 'time\.end = 0 is over before a step of time\.step = 0\.025$' balloon-sim cube.ply --set time.end=0 --accuracy-cost cost.tsv --check
 # what cannot be written is known before the work
 refused 1 'no-folder/cost.tsv' balloon-sim cube.ply $calm --accuracy-cost no-folder/cost.tsv
 refused 2 'must end in \.tsv, \.png or \.svg' balloon-sim cube.ply --accuracy-cost cost.pdf

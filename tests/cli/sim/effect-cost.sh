@@ -17,6 +17,7 @@ only_files cube.oct cube.ply cost.tsv
 # of what makes no step nothing can be told: each effect was said not to be needed
 expect 1 balloon-sim cube.ply $calm $effects --set time.end=0.01 --effect-cost cost.tsv
 stderr_has '--effect-cost: time\.end = 0\.01 is over before a step of time\.step = 0\.025$'
+refused 1 '--effect-cost: time\.end = 0\.01 is over before' balloon-sim cube.ply $calm $effects --set time.end=0.01 --effect-cost cost.tsv --check
 
 # what is for a run is told that its place is taken, and the work is done
 expect 0 balloon-sim cube.ply $calm --set gravity.acceleration=[0,-3,0] --threads 2 --effect-cost cost.tsv
@@ -49,6 +50,7 @@ expect 0 balloon-sim cube.ply --set time.end=0.5 --set 'balloons[0].pressure=0' 
 stdout_has '^# rip: .*without it nothing breaks \(with it at 0\.[0-9]+ s\): you need it$'
 
 refused 1 'has no effects: there is nothing to leave out' balloon-sim cube.ply --effect-cost cost.tsv
+refused 1 'has no effects: there is nothing to leave out' balloon-sim cube.ply --effect-cost cost.tsv --check
 refused 1 'no-folder/cost.tsv' balloon-sim cube.ply $effects --effect-cost no-folder/cost.tsv
 refused 2 'must end in \.tsv, \.png or \.svg' balloon-sim cube.ply --effect-cost cost.pdf
 refused 2 'leave one of the two out' balloon-sim cube.ply --effect-cost cost.tsv --accuracy-cost cost.tsv

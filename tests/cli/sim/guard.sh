@@ -10,7 +10,10 @@ awk -F'\t' 'NR == 3 && $13 < 0.1 { small = 1 } END { exit !small }' log.tsv || f
 expect 0 balloon-sim m.ply $large --set time.guard=substep --set schedule[0].at=2 --set schedule[0].damping=20 --log log.tsv
 stderr_has '^balloon-sim: at 2.0[0-9]* s: time.step 1 is split in [0-9]{3,}: steps up to 0.00[0-9]+ are surely stable'
 [ "$(grep -c 'is split in' .stderr)" = 2 ] || fail "told $(grep -c 'is split in' .stderr) times of split steps"
-refused 3 'refused at time 0: time.step 1 is too large: steps up to 0.0' balloon-sim m.ply --hash $large --set time.guard=refuse
+for option in --hash --check; do
+    refused 3 'refused at time 0: time.step 1 is too large: steps up to 0.0' balloon-sim m.ply $option $large --set time.guard=refuse
+done
+expect 0 balloon-sim m.ply --check $large --set time.step=0.001 --set time.guard=refuse
 expect 3 balloon-sim m.ply --hash $large --set time.end=1000 --set time.guard=off
 stderr_has 'diverged at time .* on an edge of length .*; kinetic energy .*; time.step 1 is too large: steps up to 0.0'
 [ ! -s .stdout ] || fail "stdout is not empty"
@@ -31,8 +34,10 @@ stdout_has 'every step is stable for xpbd$'
 weight='--set balloons[0].string.stiffness=1e12 --set time.integrator=bdf2 --set time.guard=substep'
 expect 0 balloon-sim m.ply $weight --set balloons[0].string.weight=1 --check
 stdout_has 'time.step 0.025 is split in [0-9]+: steps up to 3.54e-07 follow the weight on the string of balloons\[0\], .*softer string'
-refused 3 'refused at time 0: time.step 0.025 is too large to be split: steps up to .* follow the weight on the string' \
-    balloon-sim m.ply $weight --set balloons[0].string.weight=1e-6 --hash
+for option in --hash --check; do
+    refused 3 'refused at time 0: time.step 0.025 is too large to be split: steps up to .* follow the weight on the string' \
+        balloon-sim m.ply $weight --set balloons[0].string.weight=1e-6 $option
+done
 refused 1 'guard is "maybe"; it must be one of "substep", "refuse", "off"' balloon-sim m.ply --set time.guard=maybe
 
 expect 0 balloon-sim m.ply $large --set time.guard=substep --check
