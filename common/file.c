@@ -219,6 +219,9 @@ enum status file_out_open(const char *path, struct file_out **result, struct err
                            "%s: is a link that leads nowhere; make what it leads to, or remove it", path);
     } else if (exists && S_ISDIR(old.st_mode)) {
         status = error_set(err, STATUS_FILE, "%s: is a folder; give the name of a file in it", path);
+    } else if (!*path) {
+        errno = ENOENT;
+        status = error_set_errno(err, path, "create");
     } else if (!out->target) {
         status = errno == ENOMEM ? error_no_memory(err, path) : error_set_errno(err, path, "follow the link");
     } else if (!replaced) {

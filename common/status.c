@@ -28,7 +28,7 @@ enum status error_set(struct error *err, enum status status, const char *format,
 
 enum status error_set_errno(struct error *err, const char *path, const char *what)
 {
-    return error_set(err, STATUS_FILE, "%s: cannot %s: %s", path, what, strerror(errno));
+    return error_set(err, STATUS_FILE, "%s: cannot %s: %s", *path ? path : "\"\"", what, strerror(errno));
 }
 
 enum status error_no_memory(struct error *err, const char *what)

@@ -141,8 +141,9 @@ static void choose_window(struct options *o, struct argp_state *state)
     if (o->window && other)
         argp_error(state, "%s runs to the end without a window: leave one of the two out", other);
     o->window = !other && (o->window || (!o->log && !o->estimate));
-    if (cost && any_run_option_of(o))
-        command_note("%s is for a run, whose place %s takes: it does nothing", any_run_option_of(o), cost);
+    const char *instead = cost ? cost : o->explain && !o->check ? "--explain" : NULL;
+    if (instead && any_run_option_of(o))
+        command_note("%s is for a run, whose place %s takes: it does nothing", any_run_option_of(o), instead);
 }
 
 /* What only all of them together can tell. */

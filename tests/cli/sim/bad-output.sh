@@ -30,6 +30,12 @@ only_files m.ply frames log.tsv
 expect 1 sh -c 'balloon-sim "$@" >/dev/full' sh m.ply --hash $short
 stderr_has 'cannot write the results'
 
+# A name that a script left empty is no name, and that is found out before the run.
+for output in --log --checkpoint --pieces --frames --mesh-series; do
+    refused 1 '^balloon-sim: "": cannot (create|make the folder): No such file' balloon-sim m.ply --set time.end=1e9 $output ''
+done
+refused 1 '^balloon-sim: "": cannot open: No such file' balloon-sim ''
+
 # --check says so too, and writes nothing.
 refused 1 'frames: is a file; give the name of a folder$' balloon-sim m.ply --check --mesh-series frames
 for output in '--frames /proc/f' '--mesh-series /proc/f/' '--movie /proc/f.mp4' '--contact-sheet /proc/f.png' '--log /proc/f' '--plot /proc/f.png' \

@@ -61,3 +61,8 @@ share() # LAW
     sed -n 's/^on	membrane	.*adds to a step: \([0-9]*\) %$/\1/p' .stdout
 }
 [ "$(share neo-hookean)" -lt "$(share gent)" ] && [ "$(share gent)" -lt "$(share ogden)" ] || fail "all laws take the same"
+
+# What is for a run does nothing beside it, and that is said.
+expect 0 balloon-sim sphere.cfg --explain --log log.tsv
+stderr_has '^balloon-sim: --log is for a run, whose place --explain takes: it does nothing$'
+no_file log.tsv
