@@ -29,9 +29,8 @@ static const char help[] = "left       tool              middle, alt+left  turn\
 static void describe_balloon(const struct app *app, char *text, size_t size)
 {
     const bool inflated = app->balloon.inflated;
-    snprintf(text, size, "the balloon%s   p  back to the sculpture   i  %s   F1 help%s%s",
-             inflated ? ", blown up" : "", inflated ? "back to rest" : "inflate it", app->written ? "  " : "",
-             app->written ? app->written : "");
+    snprintf(text, size, "the balloon%s   p  back to the sculpture   i  %s   F1 help",
+             inflated ? ", blown up" : "", inflated ? "back to rest" : "inflate it");
 }
 
 static void describe_tool(const struct app *app, char *text, size_t size)
@@ -42,12 +41,12 @@ static void describe_tool(const struct app *app, char *text, size_t size)
     for (int axis = 0; axis < 3; axis++)
         if (s->mirror >> axis & 1)
             strncat(mirror, (const char *[]){"x", "y", "z"}[axis], 2);
-    snprintf(text, size, "%s%s  brush %.3g cells  depth %+.1f%s%s%s  F1 help%s%s",
+    snprintf(text, size, "%s%s  brush %.3g cells  depth %+.1f%s%s%s  F1 help",
              either && s->fill ? "fill "
              : either          ? "chip "
                                : "",
              session_tool_names[s->tool], s->radius * (1 << s->tree.depth), s->depth, s->snap ? "  grid" : "",
-             *mirror ? "  mirror " : "", mirror, app->written ? "  " : "", app->written ? app->written : "");
+             *mirror ? "  mirror " : "", mirror);
 }
 
 static void describe_question(const struct app *app, char *text, size_t size)
@@ -141,6 +140,21 @@ static void add_help(struct app *app, struct render_text *texts, size_t *count,
     *count = 1;
 }
 
+/* What has become of a file: behind the line, or above it where it would make its letters smaller. */
+static void add_written(const struct app *app, char *line, size_t size)
+{
+    char both[TEXT_SIZE];
+    int eye[2], width, height;
+    if (!app->written)
+        return;
+    snprintf(both, sizeof both, "%.1000s  %s", line, app->written);
+    orbit_eye_size(&app->view, eye);
+    render_text_size(&(struct render_text){.text = both, .scale = 2}, &width, &height);
+    if (MARGIN + width > eye[0])
+        snprintf(both, sizeof both, "%s\n%.1000s", app->written, line);
+    snprintf(line, size, "%s", both);
+}
+
 size_t app_texts(struct app *app, struct render_text texts[WINDOW_TEXTS_MAX])
 {
     static const float white[3] = {1, 1, 1}, warm[3] = {1, 0.8f, 0.3f};
@@ -150,6 +164,7 @@ size_t app_texts(struct app *app, struct render_text texts[WINDOW_TEXTS_MAX])
     orbit_eye_size(&app->view, size);
     if (app->open && size[1] >= ROOM_FOR_TOOL) {
         (app->preview ? describe_balloon : describe_tool)(app, storage[count], TEXT_SIZE);
+        add_written(app, storage[count], TEXT_SIZE);
         add_text(app, texts, &count, storage[count], MARGIN, -MARGIN, white);
     }
     if (app->hints.message[0]) {
