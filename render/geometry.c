@@ -179,16 +179,15 @@ static uint32_t corner_vertex(struct building *b, uint32_t t, int k, const doubl
 static bool facet_normal(const struct building *b, uint32_t t, double facet[3])
 {
     const struct mesh *mesh = b->skin->mesh;
+    const uint32_t *p = mesh->triangle[t];
     double at[3][3];
     for (int k = 0; k < 3; k++) {
-        camera_to_space(b->space, mesh->position[mesh->triangle[t][k]], at[k]);
+        camera_to_space(b->space, mesh->position[p[k]], at[k]);
         if (!(fabs(at[k][0]) < limit && fabs(at[k][1]) < limit && fabs(at[k][2]) < limit))
             return false;
     }
-    double a[3], c[3], d[3];
-    vec3_sub(mesh->position[mesh->triangle[t][1]], mesh->position[mesh->triangle[t][0]], a);
-    vec3_sub(mesh->position[mesh->triangle[t][2]], mesh->position[mesh->triangle[t][0]], c);
-    vec3_cross(a, c, d);
+    double d[3];
+    vec3_triangle(mesh->position[p[0]], mesh->position[p[1]], mesh->position[p[2]], d);
     double length = vec3_length(d);
     for (int i = 0; i < 3; i++)
         facet[i] = length > 0 ? d[i] / length : i == 2;

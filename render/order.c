@@ -25,10 +25,8 @@ static uint32_t nearness_of(double square)
 
 static double square_distance(double corner[3][3], double closed)
 {
-    double a[3], b[3], normal[3], middle[3];
-    vec3_sub(corner[1], corner[0], a);
-    vec3_sub(corner[2], corner[0], b);
-    vec3_cross(a, b, normal);
+    double normal[3], middle[3];
+    vec3_triangle(corner[0], corner[1], corner[2], normal);
     const bool outside = vec3_dot(normal, corner[0]) < 0;
     double end = vec3_dot(corner[0], corner[0]);
     for (int k = 1; k < 3; k++) {
