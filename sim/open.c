@@ -188,15 +188,13 @@ static enum status fill_balloon(struct sim *sim, struct sim_balloon *b, const st
         if (b->scene->mass_by == SCENE_BY_AREAS)
             springs_mass_by_area(sim, b);
         b->own_thresholds = b->scene->threshold_of == SCENE_OF_EDGE;
-        *b->now = (struct sim_settings){b->scene->spring_factor,
-                                        b->scene->damping,
-                                        b->scene->pressure,
-                                        b->scene->threshold * (b->own_thresholds ? 1 : b->mean_rest_length),
-                                        b->scene->gas.pump,
-                                        b->scene->gas.pump_until,
-                                        0,
-                                        {0},
-                                        0};
+        *b->now = (struct sim_settings){.spring_factor = b->scene->spring_factor,
+                                        .damping = b->scene->damping,
+                                        .pressure = b->scene->pressure,
+                                        .threshold_length = b->scene->threshold *
+                                                            (b->own_thresholds ? 1 : b->mean_rest_length),
+                                        .pump = b->scene->gas.pump,
+                                        .pump_until = b->scene->gas.pump_until};
     }
     free(places.edge);
     free(places.triangle);
