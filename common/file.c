@@ -268,10 +268,24 @@ static void sync_folder_of(const char *path)
     free(folder);
 }
 
+/* Writes what is still in the buffer; errno tells why not. Where a write has failed before, errno has been
+ * another's since: one more byte, to a file that is lost anyhow, fails likewise and says why. */
+static bool flush(FILE *stream)
+{
+    const bool failed = ferror(stream);
+    if (failed)
+        fputc('\n', stream);
+    if (fflush(stream))
+        return false;
+    if (failed)
+        errno = EIO; /* there is room again, but something is lost */
+    return !failed;
+}
+
 enum status file_out_commit(struct file_out *out, struct error *err)
 {
     enum status status = STATUS_OK;
-    bool wrote = !ferror(out->stream) && !fflush(out->stream);
+    bool wrote = flush(out->stream);
     if (wrote && out->temporary)
         wrote = !fsync(fileno(out->stream));
     if (!wrote)

@@ -143,6 +143,18 @@ static void a_full_disk_is_reported(void **state)
 }
 
 /* Longer than any first guess of its length, which a pipe does not tell. */
+static void a_full_disk_is_reported_though_much_has_gone_wrong_since(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct file_out *out = NULL;
+    assert_ok(file_out_open("/dev/full", &out, &err), &err);
+    for (int i = 0; i < 10000; i++)
+        fputs("a line of the log\n", file_out_stream(out));
+    assert_true(access("no/such/file", F_OK) != 0);
+    assert_refused(file_out_commit(out, &err), STATUS_FILE, "/dev/full: cannot write: No space left", &err);
+}
+
 static void a_pipe_is_read_to_its_end(void **state)
 {
     (void)state;
@@ -335,6 +347,7 @@ int main(void)
         cmocka_unit_test(a_name_that_is_too_long_is_refused_at_once),
         cmocka_unit_test(a_link_is_followed_not_replaced),
         cmocka_unit_test(a_full_disk_is_reported),
+        cmocka_unit_test(a_full_disk_is_reported_though_much_has_gone_wrong_since),
         cmocka_unit_test(a_pipe_is_read_to_its_end),
         cmocka_unit_test(a_pipe_of_something_else_is_left_at_once),
         cmocka_unit_test(a_pipe_without_an_end_is_refused),
