@@ -140,17 +140,22 @@ static void add_help(struct app *app, struct render_text *texts, size_t *count,
     *count = 1;
 }
 
+static bool fits_in_large_letters(const struct app *app, const char *text)
+{
+    int eye[2], width, height;
+    orbit_eye_size(&app->view, eye);
+    render_text_size(&(struct render_text){.text = text, .scale = 2}, &width, &height);
+    return MARGIN + width <= eye[0];
+}
+
 /* What has become of a file: behind the line, or above it where it would make its letters smaller. */
 static void add_written(const struct app *app, char *line, size_t size)
 {
     char both[TEXT_SIZE];
-    int eye[2], width, height;
     if (!app->written)
         return;
     snprintf(both, sizeof both, "%.1000s  %s", line, app->written);
-    orbit_eye_size(&app->view, eye);
-    render_text_size(&(struct render_text){.text = both, .scale = 2}, &width, &height);
-    if (MARGIN + width > eye[0])
+    if (fits_in_large_letters(app, line) && !fits_in_large_letters(app, both))
         snprintf(both, sizeof both, "%s\n%.1000s", app->written, line);
     snprintf(line, size, "%s", both);
 }

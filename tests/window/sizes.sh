@@ -35,15 +35,15 @@ xdotool windowmap --sync "$window"
 xdotool windowfocus "$window" 2>/dev/null || true
 at 10 10
 carves_at 400 200 back
-xdotool windowsize "$window" 600 450
+xdotool windowsize "$window" 650 450
 settle
-command -v import >/dev/null && import -window "$window" -crop 450x20+0+424 +repage before.ppm
+command -v import >/dev/null && import -window "$window" -crop 500x20+0+424 +repage before.ppm
 press ctrl+s
 wait_title a.oct
 settle
 picture saved
 # what has been written does not make the letters of the lowest line smaller
-command -v import >/dev/null && import -window "$window" -crop 450x20+0+424 +repage after.ppm
+command -v import >/dev/null && import -window "$window" -crop 500x20+0+424 +repage after.ppm
 [ ! -e before.ppm ] || cmp -s before.ppm after.ppm || fail "the tool's line is another once it is saved"
 press ctrl+q
 ends 0
