@@ -37,3 +37,11 @@ for side in above:5.0 below:-5.0; do
 done
 cmp -s above/frame_0001.png below/frame_0001.png && fail "it looks the same from above and from below"
 no_file bad
+
+# the library that draws is wanted by pictures alone
+mkdir broken
+: >broken/libOSMesa.so.8
+without="env LD_LIBRARY_PATH=$PWD/broken BALLOON_CONTEXT=osmesa"
+refused 1 'OSMesa.* is not there \(.*libOSMesa.*\); on Debian: apt install libosmesa6$' $without balloon-sim m.ply $short --frames bad
+no_file bad
+expect 0 $without balloon-sim m.ply $short --log none.tsv
