@@ -10,14 +10,41 @@ enum { PANEL_WIDTH = 620, PANEL_HEIGHT = 470, TITLE_HEIGHT = 40 };
 static const char *const colours[PLOT_BLACK] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                 "#e69f00", "#56b4e9", "#202020"};
 
-/* A text between quotes, in which gnuplot reads nothing but a doubled quote; line ends become spaces. */
+/* How many bytes the letter of UTF-8 takes that begins here; 0: none begins. */
+static size_t letter_length(const char *text)
+{
+    const unsigned char first = (unsigned char)*text;
+    const size_t length = first < 0x80                    ? 1
+                          : first >= 0xC2 && first < 0xE0 ? 2
+                          : first >= 0xE0 && first < 0xF0 ? 3
+                          : first >= 0xF0 && first < 0xF5 ? 4
+                                                          : 0;
+    for (size_t i = 1; i < length; i++)
+        if (((unsigned char)text[i] & 0xC0) != 0x80)
+            return 0;
+    return length;
+}
+
+/* One letter, of those that a picture can hold: line ends become spaces, and what is no UTF-8, as a file's
+ * name may have it, "?". Returns how many bytes it took. */
+static size_t put_letter(FILE *script, const char *text)
+{
+    const size_t length = letter_length(text);
+    if (length > 1)
+        fwrite(text, 1, length, script);
+    else
+        fputc(length == 0 ? '?' : *text < ' ' ? ' ' : *text, script);
+    return length > 0 ? length : 1;
+}
+
+/* A text between quotes, in which gnuplot reads nothing but a doubled quote. */
 static void put_text(FILE *script, const char *text)
 {
     fputc('\'', script);
-    for (; text && *text; text++) {
+    while (text && *text) {
         if (*text == '\'')
             fputc('\'', script);
-        fputc((unsigned char)*text < ' ' ? ' ' : *text, script);
+        text += put_letter(script, text);
     }
     fputc('\'', script);
 }
@@ -46,8 +73,8 @@ static void put_data(FILE *script, const struct plot_panel *panel, size_t index)
             continue;
         }
         fprintf(script, "%.12g %.12g \"", x, s->y[i]);
-        for (const char *c = s->label ? s->label[i] : ""; *c; c++)
-            fputc(*c == '"' || *c == '\\' || (unsigned char)*c < ' ' ? ' ' : *c, script);
+        for (const char *c = s->label ? s->label[i] : ""; *c;)
+            c += put_letter(script, *c == '"' || *c == '\\' ? " " : c);
         fputs("\"\n", script);
     }
     fputs("END_OF_SERIES\n", script);

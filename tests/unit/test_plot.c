@@ -99,6 +99,20 @@ static void round_off_below_nothing_is_nothing(void **state)
     assert_false(script_has(&panel, "set yrange [0:*]"));
 }
 
+/* A file's name may be of any bytes; an SVG with such is none. */
+static void what_is_no_utf_8_is_shown_so(void **state)
+{
+    (void)state;
+    const char *const names[] = {"caf\xE9 \xC3\xA9", "\xE2\x82", "\xE2\x82\xAC"};
+    const struct plot_series series = {.style = PLOT_BARS, .y = y, .label = names, .count = 2};
+    const struct plot_panel panel = {
+        .title = names[0], .x_label = names[2], .series = &series, .series_count = 1};
+    assert_true(script_has(&panel, "'caf? \xC3\xA9'"));
+    assert_true(script_has(&panel, "\"caf? \xC3\xA9\""));
+    assert_true(script_has(&panel, "\"??\""));
+    assert_true(script_has(&panel, names[2]));
+}
+
 /* A key inside takes the upper right corner, where lines end that rise. */
 static void no_key_and_no_label_covers_what_is_drawn(void **state)
 {
@@ -213,6 +227,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_style_is_drawn_as_png_and_svg_whatever_the_points_and_texts),
         cmocka_unit_test(a_count_is_drawn_from_nothing_up_in_whole_steps),
+        cmocka_unit_test(what_is_no_utf_8_is_shown_so),
         cmocka_unit_test(no_key_and_no_label_covers_what_is_drawn),
         cmocka_unit_test(round_off_below_nothing_is_nothing),
         cmocka_unit_test(logarithmic_axes_end_near_what_is_drawn),
