@@ -107,7 +107,7 @@ static enum status add_row(struct drawing *d, enum scene_order order, int sample
 {
     struct price_picture *row = &pictures->rows[pictures->count];
     enum status status = ask(d, pictures, err);
-    if (order == d->reference_row.order && samples == d->reference_row.samples) {
+    if ((int)order == d->reference_row.order && samples == d->reference_row.samples) {
         *row = d->reference_row;
     } else if (!status) {
         status = price(d, order, samples, row, err);
