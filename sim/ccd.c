@@ -119,7 +119,7 @@ bool ccd_meet(enum ccd_kind kind, double from[4][3], double to[4][3], double gap
 {
     enum { STEPS_MAX = 100 };
     const double approach = ccd_approach(kind, from, to);
-    const double near = 0.1 * (ccd_distance(kind, from, touch) - gap);
+    const double near = 0.1 * (touch->distance - gap);
     touch->time = 0;
     for (int step = 0; step < STEPS_MAX; step++) {
         const double ahead = 0.9 * (touch->distance - gap);

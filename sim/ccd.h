@@ -4,7 +4,8 @@
  * of one edge and of the other.
  *
  *     struct ccd_touch touch;
- *     if (ccd_meet(CCD_EDGES, from, to, gap, &touch)) ...        at touch.time they are hardly further apart than the gap
+ *     if (ccd_distance(CCD_EDGES, from, &touch) > gap &&
+ *         ccd_meet(CCD_EDGES, from, to, gap, &touch)) ...        at touch.time hardly further apart than the gap
  *
  * Conservative advancement: features whose distance is d, and that move by no more than l against each other
  * over the step, do not touch before d/l of it has gone. Steps of that length end in front of the touch,
@@ -28,8 +29,8 @@ struct ccd_touch {
 /* The distance of the two features, with the weights and the normal at it (0 where the distance is 0). */
 double ccd_distance(enum ccd_kind kind, double x[4][3], struct ccd_touch *touch);
 
-/* Whether they come as near as `gap`, which must be below their distance at `from`, on straight
- * ways from `from` to `to`. */
+/* Whether they come as near as `gap`, which must be below their distance at `from`, on straight ways from
+ * `from` to `to`. *touch is at first what ccd_distance() says of `from`. */
 bool ccd_meet(enum ccd_kind kind, double from[4][3], double to[4][3], double gap, struct ccd_touch *touch);
 
 /* How far one feature can come towards the other on those ways, at most. */
