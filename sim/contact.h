@@ -92,9 +92,10 @@ struct contact {
     uint32_t *link_end; /* [point_count] where those of p in the index end, and those of p + 1 begin; owned */
     uint32_t *chain;    /* [point_count] the first in its chain; UINT32_MAX: none; owned */
     /* A pair that cannot touch before its points have gone so far sleeps until they have, and is not looked
-     * at (contact_kernels.h). None would be found to touch, so that nothing depends on who sleeps, and none
+     * at (contact_apart.h). None would be found to touch, so that nothing depends on who sleeps, and none
      * of this is a part of the state. */
-    float *path;       /* [point_count] how far each has gone since all was found; owned */
+    float *path;       /* [point_count] how far each has gone since the step in which all was found; owned */
+    float *ahead;      /* [point_count] the same, this step's way counted twice; owned */
     double (*seen)[4]; /* [point_count] up to there; owned */
     bool may_sleep;    /* in this step: some points are so slow that it is worth while */
     uint32_t *hits;    /* [pair_capacity] pairs that touch, by the last look; owned */

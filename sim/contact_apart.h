@@ -147,16 +147,16 @@ static inline void apart_eight(const struct contact_flock *flock, enum ccd_kind 
 }
 
 /*
- * In this step they stay clear of each other while the gap is left between them at its end. In a later one
- * they do while all that they have gone since leaves half of how far they were apart, or of `thickness`:
- * what is free between them, and more than what ccd_approach() says, never falls by more than their points
- * go together.
+ * What is free between two features, and more than what ccd_approach() says, never falls by more than their
+ * points go together. They stay clear of each other in a step that takes no more than half of the distance d
+ * at which it begins, since the gap is no more than d/2. If they are `end` apart now, and their points go b
+ * before a later step and t in it, d is at least end - b: they do while b + 2 t < end. In this step, in which
+ * they have come t so far, d was no more than end + t: a push by u leaves the gap free while u < (end - t)/2,
+ * which is t + 2 u < end.
  */
-static inline void apart_note(lanes8_mask sure, lanes8 end, lanes8 gap, lanes8 lost, float thickness,
-                              float *clear)
+static inline void apart_note(lanes8_mask sure, lanes8 end, lanes8 lost, float *clear)
 {
-    const lanes8 least = lanes8_max(gap, 0.50001F * lanes8_min(end, lanes8_all(thickness))),
-                 free = lanes8_select(sure, end - least - 2 * lost, lanes8_all(0));
+    const lanes8 free = lanes8_select(sure, end - 4 * lost, lanes8_all(0));
     memcpy(clear, &free, sizeof free);
 }
 
@@ -175,7 +175,7 @@ static inline unsigned apart_open(const struct contact_flock *flock, float thick
     const lanes8 gap = lanes8_min(length, lanes8_all(thickness)) * 0.50001F + f.lost;
     const lanes8 end = apart_along(&f.last, kind, n);
     const lanes8_mask sure = (apart_along(&f.first, kind, n) > gap) & (end > gap);
-    apart_note(sure, end, gap, f.lost, thickness, clear);
+    apart_note(sure, end, f.lost, clear);
     const unsigned clear_ones = lanes8_bits(sure);
     if (clear_ones == 0xff)
         return 0;

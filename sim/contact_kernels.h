@@ -32,8 +32,8 @@ struct contact_pair {
         point[4];  /* the point and the triangle's corners, or the ends of one edge and of the other */
     uint32_t kind; /* enum ccd_kind */
     float distance, approach;
-    /* Its points' paths since the list was made, all four together, must be longer before it can touch:
-     * until then it sleeps. */
+    /* Its points' paths since the list was made, all four together and this step's way twice, must be longer
+     * before it can touch: until then it sleeps. */
     float until;
 };
 
@@ -42,7 +42,6 @@ struct contact_sieve {
     const float *off;      /* [point_count] how far each may be from its line */
     float growth, gone[2]; /* of the balloon, no more than 1; at the step's beginning and end */
     float gap;             /* half the thickness */
-    const float *path; /* [point_count] how far each has gone since the list was made; NULL: no pair sleeps */
 };
 
 /* Where the points go, how far each may stray from that, and how much room is wanted around it. */
@@ -66,11 +65,11 @@ static inline float contact_until(float gone, float further)
     return gone + 0.999F * further - 1e-6F * gone;
 }
 
-/* Whether it does; path as in the sieve. */
-static inline bool contact_sleeps(const struct contact_pair *pair, const float *path)
+/* Whether it does; ahead as in sim/contact.h. */
+static inline bool contact_sleeps(const struct contact_pair *pair, const float *ahead)
 {
     const uint32_t *p = pair->point;
-    return path[p[0]] + path[p[1]] + path[p[2]] + path[p[3]] <= pair->until;
+    return ahead[p[0]] + ahead[p[1]] + ahead[p[2]] + ahead[p[3]] <= pair->until;
 }
 
 struct contact_kernels {
@@ -92,21 +91,21 @@ struct contact_kernels {
     /*
      * Which of the pairs may come nearer on their way than half of `thickness`, or of their distance at
      * first where that is less: open becomes their numbers, in order, and the call returns how many. All
-     * others surely do not. clear[i] becomes how far the points of pair i may yet go, together, before it
-     * must be looked at again, in this step or a later one; no more than 0 where that is not known. points
-     * as above; open has room for `count`, clear for a multiple of eight.
+     * others surely do not. clear[i] becomes how far the points of pair i may go, together, before it must be
+     * looked at again, from the end of this way on, with all that they go in the step that is then at hand
+     * counted twice: be it this one or a later one. No more than 0 where that is not known. points as above;
+     * open has room for `count`, clear for a multiple of eight.
      */
     uint32_t (*open)(const struct contact_flock *flock, double thickness, uint32_t (*points)[4],
                      uint32_t count, uint32_t *open, float *clear);
 
     /*
-     * Which of pairs[which[0]] to pairs[which[count - 1]], none of which sleeps, may touch, by how far their
-     * points are from their lines: near becomes which ones, in order, and the call returns how many. Where
-     * there are paths the others go to sleep. which NULL: the pairs from the first on. There is room for a
-     * multiple of eight in all but near, and pairs have points there too.
+     * Which of pairs[which[0]] to pairs[which[count - 1]] may touch, by how far their points are from their
+     * lines: near becomes which ones, in order, and the call returns how many. which NULL: the pairs from the
+     * first on. There is room for a multiple of eight in all but near, and pairs have points there too.
      */
-    uint32_t (*sift)(const struct contact_sieve *sieve, struct contact_pair *pairs, const uint32_t *which,
-                     uint32_t count, uint32_t *near);
+    uint32_t (*sift)(const struct contact_sieve *sieve, const struct contact_pair *pairs,
+                     const uint32_t *which, uint32_t count, uint32_t *near);
 
     /* sides[t] becomes, for `count` of the triangles, a bit for each of 26 directions that its normal looks
      * to all the way, whatever its points stray. */

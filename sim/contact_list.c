@@ -238,8 +238,8 @@ static inline bool is_too_far(const struct watch *w, uint32_t p, double square)
     return most < 0 || square > most * most;
 }
 
-/* A point's path goes on to where it is, rounded up: adding is off by no more than 6e-8 of it. Returns how
- * far that was. */
+/* A point's path goes on to where it is, in this step, rounded up: adding is off by no more than 6e-8 of it.
+ * Returns how far that was. */
 static inline float follow_path(struct contact *c, uint32_t p, const double x[4])
 {
     row *seen = (row *)c->seen[p];
@@ -249,6 +249,7 @@ static inline float follow_path(struct contact *c, uint32_t p, const double x[4]
         return 0;
     const float length = root_above(square);
     c->path[p] = 1.0000002F * (c->path[p] + length);
+    c->ahead[p] = 1.0000002F * (c->ahead[p] + 2 * length);
     *seen = *(const row *)x;
     return length;
 }
@@ -267,8 +268,9 @@ static void watch_part(struct sim *sim, const struct sim_part *part, void *conte
         const double square = stray_of(w, p, sim->position);
         const float above = root_above(square);
         c->off[p] = above > c->off[p] ? above : c->off[p];
-        if (c->pair_count > 0) {
+        if (c->pair_count > 0 || c->memory.is_awake) {
             follow_path(c, p, sim->before[p]); /* where something has moved it since it was seen */
+            c->ahead[p] = c->path[p];
             share.slow += follow_path(c, p, sim->position[p]) < slow;
         }
         share.stray = square > share.stray ? square : share.stray;

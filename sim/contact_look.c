@@ -156,14 +156,14 @@ static void take_all_in(struct sieve *sieve, uint32_t begin, uint32_t end)
         take_in(sieve, begin + near[i]);
 }
 
-/* Where skin rests on skin most sleep, so that a look at each for that comes before one at eight. */
+/* Where skin rests on skin most sleep, and most of the others are near: a look at each is the cheapest. */
 static uint32_t leave_sleepers_out(const struct contact *c, uint32_t *which, uint32_t count)
 {
     uint32_t awake = 0;
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t pair = which[i];
         which[awake] = pair;
-        awake += !contact_sleeps(&c->pairs[pair], c->path);
+        awake += !contact_sleeps(&c->pairs[pair], c->ahead);
     }
     return awake;
 }
@@ -173,7 +173,9 @@ static void take_awake_in(struct sieve *sieve, uint32_t begin, uint32_t end)
     uint32_t which[PAIRS_AT_ONCE];
     for (uint32_t i = begin; i < end; i++)
         which[i - begin] = i;
-    take_some_in(sieve, which, leave_sleepers_out(sieve->look->sim->contact, which, end - begin));
+    const uint32_t count = leave_sleepers_out(sieve->look->sim->contact, which, end - begin);
+    for (uint32_t i = 0; i < count; i++)
+        take_in(sieve, which[i]);
 }
 
 static void look_at_some(void *context, size_t index, unsigned worker)
@@ -185,8 +187,8 @@ static void look_at_some(void *context, size_t index, unsigned worker)
     const uint32_t begin = (uint32_t)index * PAIRS_A_JOB,
                    end = begin + PAIRS_A_JOB < c->pair_count ? begin + PAIRS_A_JOB : c->pair_count;
     for (uint32_t i = begin; i < end; i += PAIRS_AT_ONCE)
-        (sieve.look->by.path ? take_awake_in
-                             : take_all_in)(&sieve, i, i + PAIRS_AT_ONCE < end ? i + PAIRS_AT_ONCE : end);
+        (c->may_sleep ? take_awake_in : take_all_in)(&sieve, i,
+                                                     i + PAIRS_AT_ONCE < end ? i + PAIRS_AT_ONCE : end);
     end_look(&sieve);
 }
 
@@ -199,7 +201,13 @@ static void take_links_in(struct sieve *sieve, uint32_t *links, uint32_t count)
         links[kept] = pair;
         kept += contact_is_first(c->stirred, c->pairs[pair].point, place);
     }
-    take_some_in(sieve, links, sieve->look->by.path ? leave_sleepers_out(c, links, kept) : kept);
+    if (!c->may_sleep) {
+        take_some_in(sieve, links, kept);
+        return;
+    }
+    kept = leave_sleepers_out(c, links, kept);
+    for (uint32_t i = 0; i < kept; i++)
+        take_in(sieve, links[i]);
 }
 
 static void look_at_links(void *context, size_t index, unsigned worker)
@@ -278,8 +286,7 @@ static bool look(struct sim *sim, bool zones, size_t count,
     const struct contact_sieve by = {c->off,
                                      (float)fmin(1, fmin(c->memory.began.growth, c->motion.growth)),
                                      {(float)contact_list_gone_before(sim), (float)contact_list_gone(sim)},
-                                     (float)(c->thickness * 0.5000001),
-                                     c->may_sleep ? c->path : NULL};
+                                     (float)(c->thickness * 0.5000001)};
     struct look look = {sim, zones, by};
     c->hit_count = 0;
     contact_share_out(sim->pool, count, function, &look);

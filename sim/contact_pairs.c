@@ -163,12 +163,14 @@ void contact_take_leaves(void *finder, unsigned worker, uint32_t a, uint32_t b)
     take_edges(f, taken, first, second);
 }
 
+/* With this step's way. */
 static void begin_paths(struct sim *sim, const struct sim_part *part, void *context)
 {
     struct contact *c = sim->contact;
     (void)context;
     for (uint32_t p = part->point_begin; p < part->point_end; p++) {
-        c->path[p] = 0;
+        c->path[p] = (float)(1.000001 * vec3_distance(sim->before[p], sim->position[p]));
+        c->ahead[p] = 2 * c->path[p];
         memcpy(c->seen[p], sim->position[p], sizeof c->seen[p]);
     }
 }

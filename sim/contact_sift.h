@@ -22,12 +22,6 @@ static inline struct sift_eight sift_turn(const lanes8 pairs[8])
     return e;
 }
 
-static inline lanes8 sift_gone(const struct contact_sieve *s, const struct sift_eight *e)
-{
-    return lanes8_pick(s->path, e->point[0]) + lanes8_pick(s->path, e->point[1]) +
-           lanes8_pick(s->path, e->point[2]) + lanes8_pick(s->path, e->point[3]);
-}
-
 /* How much further the points of each pair would have to be off before it could touch; 0 and less: it may. */
 static inline lanes8 sift_spare(const struct contact_sieve *s, const struct sift_eight *e)
 {
@@ -41,20 +35,8 @@ static inline lanes8 sift_spare(const struct contact_sieve *s, const struct sift
     return s->growth * apart - s->gap - first - second;
 }
 
-/* Those of an eight that rest sleep until their points have gone further by what they have to spare, but for
- * what rounding may come to. */
-static inline void sift_rest(const struct contact_sieve *s, const struct sift_eight *e, lanes8 spare,
-                             unsigned rest, struct contact_pair *pairs, const uint32_t *which)
-{
-    const lanes8 gone = sift_gone(s, e);
-    for (; rest; rest &= rest - 1) {
-        const uint32_t k = (uint32_t)__builtin_ctz(rest);
-        pairs[which ? which[k] : k].until = contact_until(gone[k], spare[k] - 1e-5F * s->gap);
-    }
-}
-
-static uint32_t sift(const struct contact_sieve *sieve, struct contact_pair *pairs, const uint32_t *which,
-                     uint32_t count, uint32_t *near)
+static uint32_t sift(const struct contact_sieve *sieve, const struct contact_pair *pairs,
+                     const uint32_t *which, uint32_t count, uint32_t *near)
 {
     uint32_t found = 0;
     for (uint32_t i = 0; i < count; i += 8) {
@@ -63,11 +45,7 @@ static uint32_t sift(const struct contact_sieve *sieve, struct contact_pair *pai
         for (uint32_t k = 0; k < 8; k++)
             rows[k] = *(const lanes8 *)&pairs[which ? which[i + k] : i + k];
         const struct sift_eight e = sift_turn(rows);
-        const lanes8 spare = sift_spare(sieve, &e);
-        const unsigned rest = all & lanes8_bits(spare > 0);
-        if (sieve->path && rest)
-            sift_rest(sieve, &e, spare, rest, which ? pairs : &pairs[i], which ? &which[i] : NULL);
-        for (unsigned touch = all & lanes8_bits(spare <= 0); touch; touch &= touch - 1) {
+        for (unsigned touch = all & lanes8_bits(sift_spare(sieve, &e) <= 0); touch; touch &= touch - 1) {
             const uint32_t k = i + (uint32_t)__builtin_ctz(touch);
             near[found++] = which ? which[k] : k;
         }

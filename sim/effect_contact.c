@@ -87,6 +87,7 @@ static bool allocate(struct sim *sim, struct contact *c)
     c->link_end = sim_table(sim, points, sizeof *c->link_end);
     c->chain = sim_table(sim, points, sizeof *c->chain);
     c->path = sim_table(sim, points, sizeof *c->path);
+    c->ahead = sim_table(sim, points, sizeof *c->ahead);
     c->seen = sim_table(sim, points, sizeof *c->seen);
     c->moved = sim_table(sim, points, sizeof *c->moved);
     c->again = sim_table(sim, points, sizeof *c->again);
@@ -99,8 +100,8 @@ static bool allocate(struct sim *sim, struct contact *c)
     c->share = sim_table(sim, sim->part_count, sizeof *c->share);
     return contact_make_room(sim, c, at_most(PAIRS_A_TRIANGLE * triangles + 4096)) && c->from && c->to &&
            c->reach && c->off && c->speed && c->star_end && c->star && c->lines && c->ways && c->taken &&
-           c->link_end && c->chain && c->path && c->seen && c->moved && c->again && c->around && c->stirred &&
-           c->marked && c->held && c->zone && c->drift && c->share;
+           c->link_end && c->chain && c->path && c->ahead && c->seen && c->moved && c->again && c->around &&
+           c->stirred && c->marked && c->held && c->zone && c->drift && c->share;
 }
 
 /* Whether the edge a b passes through the triangle: its ends on two sides, and its
@@ -223,10 +224,10 @@ static void close(struct sim *sim, struct sim_balloon *balloon)
     if (!c)
         return;
     contact_tree_close(&c->tree);
-    void *tables[] = {c->from,   c->to,   c->reach, c->off,   c->speed, c->star_end, c->star,
-                      c->lines,  c->ways, c->taken, c->pairs, c->link,  c->link_end, c->chain,
-                      c->path,   c->seen, c->hits,  c->moved, c->again, c->around,   c->stirred,
-                      c->marked, c->held, c->zone,  c->drift, c->share};
+    void *tables[] = {c->from,    c->to,     c->reach, c->off,   c->speed, c->star_end, c->star,
+                      c->lines,   c->ways,   c->taken, c->pairs, c->link,  c->link_end, c->chain,
+                      c->path,    c->ahead,  c->seen,  c->hits,  c->moved, c->again,    c->around,
+                      c->stirred, c->marked, c->held,  c->zone,  c->drift, c->share};
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++)
         free(tables[i]);
     free(c);

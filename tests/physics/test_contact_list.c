@@ -157,7 +157,7 @@ static bool comes_too_near(double thickness, enum ccd_kind kind, const struct co
 static bool sleeps(const struct contact *c, const struct contact_pair *pair)
 {
     const uint32_t *p = pair->point;
-    return c->may_sleep && c->path[p[0]] + c->path[p[1]] + c->path[p[2]] + c->path[p[3]] <= pair->until;
+    return c->may_sleep && c->ahead[p[0]] + c->ahead[p[1]] + c->ahead[p[2]] + c->ahead[p[3]] <= pair->until;
 }
 
 /* Most pairs are not looked at again after a push, or not at all: when a step has ended none of those on the
@@ -168,6 +168,9 @@ static void check_that_none_touches(struct sim *sim, int steps, uint32_t *slept,
     for (int i = 0; i < steps; i++) {
         assert_ok(sim_step(sim, &err), &err);
         const struct contact *c = sim->contact;
+        for (uint32_t p = 0; c->memory.is_awake && p < sim->point_count; p++)
+            assert_true((double)(c->ahead[p] - c->path[p]) >=
+                        0.99 * vec3_distance(sim->before[p], sim->position[p]));
         for (uint32_t pair = 0; pair < c->pair_count; pair++) {
             struct contact_approach a;
             if (!isfinite(c->pairs[pair].distance))
@@ -210,20 +213,27 @@ static void move_towards(enum ccd_kind kind, double x[4][3], uint32_t point, dou
 }
 
 /* Features that open() calls clear, one of whose points goes as far as it allows: pushed at the end of this
- * step, in which they come no nearer than the gap; and by the end of the next one, in which nothing is to
- * be looked at. */
-static void check_clear(enum ccd_kind kind, const struct contact_approach *a, double clear, uint32_t round)
+ * step, in which they come no nearer than the gap; and by the end of a later one, in which nothing is to
+ * be looked at. Returns how many pushes there were. */
+static uint32_t check_clear(enum ccd_kind kind, const struct contact_approach *a, double clear,
+                            uint32_t round)
 {
     struct contact_approach pushed = *a, next;
     const double share = (round % 5) / 4.0;
-    move_towards(kind, pushed.to, round % 4, clear);
-    assert_false(comes_too_near(0.2, kind, &pushed));
+    double gone = 0;
+    for (int i = 0; i < 4; i++)
+        gone += vec3_distance(a->from[i], a->to[i]);
+    if (gone < clear) {
+        move_towards(kind, pushed.to, round % 4, (clear - gone) / 2);
+        assert_false(comes_too_near(0.2, kind, &pushed));
+    }
     memcpy(next.from, a->to, sizeof next.from);
     move_towards(kind, next.from, round % 4, share * clear);
     memcpy(next.to, next.from, sizeof next.to);
-    move_towards(kind, next.to, round % 4, (1 - share) * clear);
+    move_towards(kind, next.to, round % 4, (1 - share) * clear / 2);
     next.distance = ccd_distance(kind, next.from, &next.touch);
     assert_true(next.distance - ccd_approach(kind, next.from, next.to) > fmin(next.distance, 0.2) / 2);
+    return gone < clear;
 }
 
 /* Eight at a time and in single precision, near the place that all is seen from and far from it: no pair that
@@ -235,14 +245,15 @@ static void check_kernels(const struct contact_kernels *kernels, double origin, 
     static _Alignas(64) float ends[4 * PAIRS][8];
     static double from[4 * PAIRS][4], to[4 * PAIRS][4];
     uint64_t random = 5;
-    size_t near = 0, left_out = 0;
-    for (uint32_t round = 0; round < 200; round++) {
+    size_t near = 0, left_out = 0, pushes = 0;
+    for (uint32_t round = 0; round < 300; round++) {
+        const double way = round % 3 ? 0.5 : 0.02;
         uint32_t points[PAIRS][4], open[PAIRS];
         float apart[PAIRS][2], clear[PAIRS];
         for (uint32_t p = 0; p < 4 * PAIRS; p++) {
             for (int i = 0; i < 3; i++) {
                 from[p][i] = origin + random_unit(&random);
-                to[p][i] = from[p][i] + 0.5 * random_unit(&random);
+                to[p][i] = from[p][i] + way * random_unit(&random);
             }
             points[p / 4][p % 4] = p;
         }
@@ -264,12 +275,12 @@ static void check_kernels(const struct contact_kernels *kernels, double origin, 
             assert_true(is_open || !is_near);
             assert_true(!is_open || clear[i] <= 0);
             if (clear[i] > 0)
-                check_clear(kind, &a, (double)clear[i], round + i);
+                pushes += check_clear(kind, &a, (double)clear[i], round + i);
             assert_true((double)apart[i][0] <= a.distance);
             assert_true((double)apart[i][1] <= ccd_distance(kind, a.to, &touch));
         }
     }
-    assert_true(near > 200 && left_out > 6000);
+    assert_true(near > 200 && left_out > 6000 && pushes > 1000);
 }
 
 extern const struct contact_kernels contact_plain;
@@ -288,53 +299,49 @@ static void test_the_inner_loops_leave_nothing_out(void **state)
     close_scene(&s);
 }
 
-/* Of eight pairs those that do not sleep, and of these how many may touch. */
-static uint32_t look(const struct contact_kernels *kernels, const struct contact_sieve *sieve,
-                     struct contact_pair *pairs, uint32_t *awake, uint32_t *near)
+/* A bit for each that does not sleep. */
+static uint32_t awake_of(const struct contact_pair pairs[8], const float *ahead)
 {
-    uint32_t which[8], count = 0;
+    uint32_t awake = 0;
     for (uint32_t i = 0; i < 8; i++)
-        if (!contact_sleeps(&pairs[i], sieve->path))
-            which[count++] = i;
-    for (uint32_t i = count; count > 0 && i < 8; i++)
-        which[i] = which[0];
-    *awake = count;
-    return kernels->sift(sieve, pairs, which, count, near);
+        awake |= (uint32_t)!contact_sleeps(&pairs[i], ahead) << i;
+    return awake;
 }
 
-/* Eight pairs a unit apart: they sleep whatever is said of how far their points are off, until these have
- * gone so far together that they could have met; and one wakes without the others. */
+/* Eight pairs of edges that stand a unit apart: they sleep until their points have gone so far together that
+ * they could have met, and one wakes without the others. */
 static void check_waking(const struct contact_kernels *kernels)
 {
     enum { PAIRS = 8, POINTS = 4 * PAIRS };
-    float off[POINTS] = {0}, path[POINTS] = {0};
+    static const float place[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 1}};
+    static _Alignas(64) float ends[POINTS][8];
+    float path[POINTS] = {0}, clear[PAIRS];
+    uint32_t points[PAIRS][4], near[PAIRS];
     struct contact_pair pairs[PAIRS];
-    uint32_t near[PAIRS], awake;
-    struct contact_sieve sieve = {.off = off, .growth = 1, .gap = 0.25F, .path = path};
+    for (uint32_t p = 0; p < POINTS; p++) {
+        points[p / 4][p % 4] = p;
+        for (int k = 0; k < 3; k++)
+            ends[p][k] = ends[p][k + 4] = place[p % 4][k];
+    }
     for (uint32_t i = 0; i < PAIRS; i++)
         pairs[i] = (struct contact_pair){{4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3}, CCD_EDGES, 1, 0, -1};
-    assert_int_equal(look(kernels, &sieve, pairs, &awake, near), 0);
-    assert_int_equal(awake, PAIRS);
-    assert_int_equal(look(kernels, &sieve, pairs, &awake, near), 0);
-    assert_int_equal(awake, 0);
-    for (uint32_t p = 0; p < POINTS; p++)
-        off[p] = 1;
-    path[13] = path[14] = 0.37F; /* 0.74 of 0.75 */
-    assert_int_equal(look(kernels, &sieve, pairs, &awake, near), 0);
-    assert_int_equal(awake, 0);
-    path[15] = 0.02F;
-    assert_int_equal(look(kernels, &sieve, pairs, &awake, near), 1);
-    assert_int_equal(awake, 1);
-    assert_int_equal(near[0], 3);
-    off[12] = off[13] = off[14] = off[15] = 0;
-    assert_int_equal(look(kernels, &sieve, pairs, &awake, near), 0); /* and falls asleep again */
-    assert_int_equal(awake, 1);
-    assert_int_equal(look(kernels, &sieve, pairs, &awake, near), 0);
-    assert_int_equal(awake, 0);
-    for (uint32_t p = 0; p < POINTS; p++)
-        off[p] = 1;
-    sieve.path = NULL; /* where none may sleep */
-    assert_int_equal(kernels->sift(&sieve, pairs, NULL, PAIRS, near), PAIRS);
+    assert_int_equal(awake_of(pairs, path), 0xff);
+    const struct contact_flock flock = {CCD_EDGES, ends, 0};
+    assert_int_equal(kernels->open(&flock, 0.5, points, PAIRS, near, clear), 0);
+    for (uint32_t i = 0; i < PAIRS; i++)
+        pairs[i].until = contact_until(0, clear[i]);
+    path[13] = path[14] = 0.49F; /* 0.98 of 1 */
+    assert_int_equal(awake_of(pairs, path), 0);
+    path[15] = 0.03F;
+    assert_int_equal(awake_of(pairs, path), 1 << 3);
+    pairs[3].until = contact_until(1.01F, clear[3]); /* and falls asleep again */
+    assert_int_equal(awake_of(pairs, path), 0);
+    float off[POINTS] = {0};
+    const struct contact_sieve sieve = {.off = off, .growth = 1, .gap = 0.25F};
+    assert_int_equal(kernels->sift(&sieve, pairs, NULL, PAIRS, near), 0);
+    off[12] = 1;
+    assert_true(kernels->sift(&sieve, pairs, NULL, PAIRS, near) == 1 && near[0] == 3);
+    assert_true(kernels->sift(&sieve, pairs, (uint32_t[PAIRS]){2, 3}, 2, near) == 1 && near[0] == 3);
 }
 
 static void test_a_pair_that_sleeps_wakes_when_its_points_come(void **state)
