@@ -36,7 +36,8 @@ static void note_passed(struct news *news, struct sim *sim)
         return;
     guard_describe(sim, text, sizeof text);
     const int used = sim->steps > 1 ? snprintf(line, sizeof line, "at %.4g s: ", sim->time) : 0;
-    snprintf(line + used, sizeof line - (size_t)used, "time.guard is off: %s", text);
+    snprintf(line + used, sizeof line - (size_t)used, "%s; it is taken all the same: time.guard is off",
+             text);
     note(news, sim->time, line);
     news->passed = passed;
 }

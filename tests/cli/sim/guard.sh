@@ -18,12 +18,12 @@ expect 3 balloon-sim m.ply --hash $large --set time.end=1000 --set time.guard=of
 stderr_has 'diverged at time .* on an edge of length .*; kinetic energy .*; time.step 1 is too large: steps up to 0.0'
 [ ! -s .stdout ] || fail "stdout is not empty"
 # Let go, it is told of all the same, once, whether numbers run away or not; again where it has become ten times as large; not with steps that are stable.
-[ "$(grep -c '^balloon-sim: time.guard is off: time.step 1 is too large: steps up to 0.0' .stderr)" = 1 ] || fail "not told that the step is too large"
+[ "$(grep -c '^balloon-sim: time.step 1 is too large: steps up to 0.0.*; it is taken all the same: time.guard is off$' .stderr)" = 1 ] || fail "not told that the step is too large"
 expect 0 balloon-sim m.ply --hash --set time.guard=off --set time.step=0.001 --set time.end=0.1 --set time.integrator=symplectic-euler
 [ ! -s .stderr ] || fail "something is said of stable steps"
 expect 0 balloon-sim m.ply --hash --set time.guard=off --set time.step=0.01 --set time.end=0.07 --set time.integrator=symplectic-euler \
     --set balloons[0].threshold=1e300 --set schedule[0].at=0.05 --set schedule[0].damping=20
-stderr_has '^balloon-sim: at 0.0[56] s: time.guard is off: time.step 0.01 is too large: steps up to 0.00'
+stderr_has '^balloon-sim: at 0.0[56] s: time.step 0.01 is too large: steps up to 0.00.*; it is taken all the same: time.guard is off$'
 one_message
 # What asks for short steps is named, and xpbd, for which springs ask for nothing, splits what wind asks for.
 expect 0 balloon-sim m.ply --set time.guard=substep --set time.integrator=xpbd --set drag.air_density=1 --set drag.wind=[1000,0,0] --check
