@@ -141,9 +141,18 @@ static void choose_window(struct options *o, struct argp_state *state)
     if (o->window && other)
         argp_error(state, "%s runs to the end without a window: leave one of the two out", other);
     o->window = !other && (o->window || (!o->log && !o->estimate));
-    const char *instead = cost ? cost : o->explain && !o->check ? "--explain" : NULL;
-    if (instead && any_run_option_of(o))
-        command_note("%s is for a run, whose place %s takes: it does nothing", any_run_option_of(o), instead);
+}
+
+/* What is given beside an option that takes a run's place, and will not be done. */
+static void tell_idle(const struct options *o)
+{
+    const char *of_run = any_run_option_of(o), *cost = cost_option_of(o);
+    const char *instead = o->help_scene ? "--help-scene" : o->explain && !o->check ? "--explain" : NULL;
+    const char *idle = instead && !of_run ? cost : of_run;
+    if (!instead)
+        instead = cost;
+    if (instead && idle)
+        command_note("%s is for a run, whose place %s takes: it does nothing", idle, instead);
 }
 
 /* What only all of them together can tell. */
@@ -158,6 +167,7 @@ static void finish(struct options *o, struct argp_state *state)
             state,
             "--accuracy-cost and --effect-cost each take the place of a run: leave one of the two out");
     choose_window(o, state);
+    tell_idle(o);
     if (o->turntable && !o->frames && !o->movie && !o->sheet)
         argp_error(state, "--turntable: give --frames DIR, --movie FILE or --contact-sheet FILE too");
     if ((o->series_vtp || o->series_constant) && !o->series)

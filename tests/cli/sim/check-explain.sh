@@ -62,7 +62,15 @@ share() # LAW
 }
 [ "$(share neo-hookean)" -lt "$(share gent)" ] && [ "$(share gent)" -lt "$(share ogden)" ] || fail "all laws take the same"
 
-# What is for a run does nothing beside it, and that is said.
-expect 0 balloon-sim sphere.cfg --explain --log log.tsv
-stderr_has '^balloon-sim: --log is for a run, whose place --explain takes: it does nothing$'
-no_file log.tsv
+# What is for a run, and what takes its place, does nothing beside it, nor beside --help-scene, and that is said.
+idle() # OPTION-GIVEN OPTION-THAT-COUNTS
+{
+    expect 0 balloon-sim sphere.cfg "$2" "$1" left-out.tsv
+    stderr_has "^balloon-sim: $1 is for a run, whose place $2 takes: it does nothing\$"
+    one_message
+    no_file left-out.tsv
+}
+idle --log --explain
+idle --accuracy-cost --explain
+idle --effect-cost --help-scene
+idle --log --help-scene
