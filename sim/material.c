@@ -1,6 +1,6 @@
 /* "As the surface of the balloon stretches, it should look shinier and it should get more
  * translucent" (paper 3.3). */
-#include "sim/sim.h"
+#include "sim/material.h"
 
 #include <math.h>
 

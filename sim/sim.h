@@ -356,13 +356,6 @@ struct sim_measures sim_measure(struct sim *sim);
 /* The skin that is left, as a mesh of its own. */
 enum status sim_skin(const struct sim *sim, struct mesh *mesh, struct error *err);
 
-/* The mean length of a triangle's three edges over their mean rest length; 1 where that is 0. */
-double sim_triangle_stretch(const struct sim *sim, uint32_t triangle);
-
-/* Opacity and highlight exponent of each triangle from its stretch (material.c). Arrays of
- * triangle_count, the caller's. */
-void sim_material(const struct sim *sim, float *opacity, float *shininess);
-
 /* A fingerprint of the whole state: equal states, equal numbers. */
 uint64_t sim_hash(struct sim *sim);
 

@@ -1,5 +1,6 @@
 #include "sim/skin_mesh.h"
 #include "common/array.h"
+#include "sim/material.h"
 #include "sim/measure.h"
 #include "sim/reorder.h"
 

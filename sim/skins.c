@@ -2,6 +2,7 @@
 
 #include "common/array.h"
 #include "common/vec3.h"
+#include "sim/material.h"
 #include "sim/measure.h"
 #include "sim/props.h"
 

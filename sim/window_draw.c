@@ -1,6 +1,7 @@
 /* The skin in the live window: as it looks, in colours by its stretch, or as wires. */
 #include "common/array.h"
 #include "common/vec3.h"
+#include "sim/material.h"
 #include "sim/window_app.h"
 
 #include <math.h>

@@ -1,6 +1,7 @@
 /* Around the step: what a scene sets up, its effects, its schedule, its looks, and runs as a whole. */
 #include "balloon.h"
 #include "common/vec3.h"
+#include "sim/material.h"
 
 static void the_scene_decides_size_place_and_mass(void **state)
 {
