@@ -235,6 +235,30 @@ enum status guard_step(struct sim *sim, bool first, struct error *err)
     return STATUS_OK;
 }
 
+/* What is chosen by trials splits for the points by itself; what moves beside them is alike for all. */
+static enum status may_follow(struct sim *sim, struct error *err)
+{
+    double longest;
+    guard_stable_step(sim);
+    const bool follows = guard_following(sim).step * GUARD_PARTS_MAX < sim->whole_step;
+    return follows ? guard_longest_step(sim, &longest, err) : STATUS_OK;
+}
+
+enum status guard_may_step(struct sim *sim, struct error *err)
+{
+    const struct integrator *method = sim->integrator;
+    const bool first = sim->steps_since % sim->substeps == 0;
+    double longest;
+    if (sim_at_end(sim))
+        return STATUS_OK;
+    if (first)
+        sim_change_due(sim);
+    enum status status = method->choose ? may_follow(sim, err) : guard_step(sim, first, err);
+    if (!status && method->flags & INTEGRATOR_ADAPTIVE)
+        status = guard_longest_step(sim, &longest, err);
+    return status;
+}
+
 double guard_passed(const struct sim *sim)
 {
     const double more = parts_needed(sim) / sim->substeps;

@@ -85,6 +85,11 @@ enum status guard_longest_step(struct sim *sim, double *longest, struct error *e
  * when no split would do. */
 enum status guard_step(struct sim *sim, bool first, struct error *err);
 
+/* Whether the next step could be begun, without a method's trials. What the schedule changes by now is
+ * changed, and the step is split: sim_step() goes on from there.
+ * Error: STATUS_DIVERGED where it is refused. */
+enum status guard_may_step(struct sim *sim, struct error *err);
+
 /* STATUS_DIVERGED, by sim_diverged(), once a place or a speed is not a number, or the points move with a
  * million times the energy that they can have. All they can have is what there was, and what pressure
  * adds: its power is at most sum P |v| <= sqrt(sum P^2/m) sqrt(2 T), so that sqrt(2 E) grows by sqrt(sum

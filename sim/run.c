@@ -211,7 +211,7 @@ enum status run_check(const struct options *options, struct sim *sim, struct err
         status = checkpoint_load(options->resume, sim, &past, err);
     free(past.rows);
     if (!status && !options->accuracy_cost) /* which lets all steps go */
-        status = sim_may_step(sim, err);
+        status = guard_may_step(sim, err);
     return status;
 }
 

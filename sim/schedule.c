@@ -61,3 +61,10 @@ void sim_change(struct sim *sim, const struct scene_schedule *entry)
                 change_balloon(sim, &sim->balloons[b], key, entry->change[i].value);
     }
 }
+
+void sim_change_due(struct sim *sim)
+{
+    const struct scene *scene = sim->scene;
+    while (sim->next_change < scene->schedule_count && scene->schedule[sim->next_change].at <= sim->time)
+        sim_change(sim, &scene->schedule[sim->next_change++]);
+}

@@ -273,10 +273,6 @@ void sim_clear(struct sim *sim);
  * left as it is, for a look; STATUS_INTERRUPTED by goes_on, the state as before the step. */
 enum status sim_step(struct sim *sim, struct error *err);
 
-/* Whether a step could be begun: STATUS_DIVERGED where the guard refuses it. What the schedule changes by now
- * is changed, and the step is split: sim_step() goes on from there. */
-enum status sim_may_step(struct sim *sim, struct error *err);
-
 /* Forces on every point at the current positions and velocities; for the integrators. */
 void sim_forces(struct sim *sim);
 
@@ -364,8 +360,9 @@ static inline bool sim_goes_on(const struct sim *sim)
     return !sim->goes_on || sim->goes_on(sim);
 }
 
-/* Applies one entry of the schedule (schedule.c). */
+/* Applies one entry of the schedule (schedule.c); all whose time has come. */
 void sim_change(struct sim *sim, const struct scene_schedule *entry);
+void sim_change_due(struct sim *sim);
 
 /* STATUS_DIVERGED, with the first point that is nowhere or the one that moves most, its longest edge, the
  * time, the kinetic energy and what is likely to blame (diverged.c). */

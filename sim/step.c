@@ -145,46 +145,16 @@ static void tear_triangles(struct sim *sim)
     }
 }
 
-/* What the user changes by hand between two steps: "the time interval or the internal air pressure" (3.5). */
-static void change_by_schedule(struct sim *sim)
-{
-    const struct scene *scene = sim->scene;
-    while (sim->next_change < scene->schedule_count && scene->schedule[sim->next_change].at <= sim->time)
-        sim_change(sim, &scene->schedule[sim->next_change++]);
-}
-
 /* Where one of the scene's steps begins; the guard may split it in several of the method's. */
 static enum status begin_step(struct sim *sim, struct error *err)
 {
     const bool first = sim->steps_since % sim->substeps == 0;
     reorder_step(sim); /* where skin is torn */
     if (first)
-        change_by_schedule(sim);
+        sim_change_due(sim);
     if (sim->integrator->choose && !sim->integrator->choose(sim, first))
         return error_set(err, STATUS_INTERRUPTED, "interrupted at %g s", sim->time);
     return guard_step(sim, first, err);
-}
-
-static bool is_adaptive(const struct sim *sim)
-{
-    return sim->integrator->flags & INTEGRATOR_ADAPTIVE;
-}
-
-enum status sim_may_step(struct sim *sim, struct error *err)
-{
-    double longest;
-    if (sim_at_end(sim))
-        return STATUS_OK;
-    enum status status = STATUS_OK;
-    if (!sim->integrator->choose) {
-        status = begin_step(sim, err);
-    } else { /* it finds what is stable for the points: what moves beside them is alike for all */
-        change_by_schedule(sim);
-        guard_stable_step(sim);
-        if (guard_following(sim).step * GUARD_PARTS_MAX < sim->whole_step)
-            status = guard_longest_step(sim, &longest, err);
-    }
-    return status || !is_adaptive(sim) ? status : guard_longest_step(sim, &longest, err);
 }
 
 /* When a method that chooses its own steps must stop: at the next change, by the user or of what lets go or
@@ -196,6 +166,11 @@ static double next_due(const struct sim *sim)
     if (sim->next_change < scene->schedule_count)
         due = fmin(due, scene->schedule[sim->next_change].at);
     return due;
+}
+
+static bool is_adaptive(const struct sim *sim)
+{
+    return sim->integrator->flags & INTEGRATOR_ADAPTIVE;
 }
 
 /* Part 1: positions and velocities, by a method that asks sim_forces() as often as its order needs. */
