@@ -31,7 +31,7 @@ enum status scene_check_surroundings(const struct scene *scene, struct error *er
 enum status scene_check_fracture(const struct scene *scene, size_t number, struct error *err);
 
 /* A membrane without thickness, with springs' settings or springs' methods, or of no rubber; bending by a
- * method that cannot follow it, viscosity quicker than the steps (scene_checks_skin.c). */
+ * method that cannot follow it (scene_checks_skin.c). */
 enum status scene_check_skin(const struct scene *scene, size_t number, struct error *err);
 
 #endif

@@ -27,16 +27,6 @@ static enum status check_ogden(const struct scene *scene, size_t number, struct 
     return STATUS_OK;
 }
 
-static enum status check_viscosity(const struct scene *scene, size_t number, struct error *err)
-{
-    const struct scene_viscosity *block = &scene->balloons[number].viscosity;
-    if (!block->on || block->time >= scene->time.step)
-        return STATUS_OK;
-    return scene_contradiction(scene, number, "viscosity", block->line, err,
-                               "time is %g, shorter than time.step %g, which cannot follow it", block->time,
-                               scene->time.step);
-}
-
 /* Methods that go by what hangs together at the start: CVODE's vectors and xpbd's
  * constraints are made once. */
 enum status scene_check_fracture(const struct scene *scene, size_t number, struct error *err)
@@ -97,6 +87,5 @@ enum status scene_check_skin(const struct scene *scene, size_t number, struct er
     const enum status status = check_bending(scene, number, err);
     if (status)
         return status;
-    return scene->balloons[number].membrane.on ? check_membrane(scene, number, err)
-                                               : check_viscosity(scene, number, err);
+    return scene->balloons[number].membrane.on ? check_membrane(scene, number, err) : STATUS_OK;
 }

@@ -172,10 +172,10 @@
     X(damping, NUMBER, 0, 1e12, "1", "force s/length", 0, "while it is taut", "")                   \
     X(weight, NUMBER, 0, 1e9, "0", "mass", 0, "at the other end; 0: that end is held", "")
 
-#define SCENE_VISCOSITY_FIELDS(X)                                                                 \
-    X(ratio, NUMBER, 0, 1e6, "1", "", 0, "of the second spring's constant to that of the edge's", \
-      "paper, figure 1")                                                                          \
-    X(time, NUMBER, 1e-9, 1e9, "1", "s", 0, "in which its pull falls to 1/e; at least time.step", \
+#define SCENE_VISCOSITY_FIELDS(X)                                                                  \
+    X(ratio, NUMBER, 0, 1e6, "1", "", 0, "of the second spring's constant to that of the edge's",  \
+      "paper, figure 1")                                                                           \
+    X(time, NUMBER, 1e-9, 1e9, "1", "s", 0, "in which its pull falls to 1/e; steps are no longer", \
       "paper, figure 1")
 
 #define SCENE_PLASTICITY_FIELDS(X)                                                                           \

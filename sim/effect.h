@@ -79,8 +79,8 @@ struct effect {
      * when that is no longer true. NULL: they are constant, and do no work. */
     void (*bound)(const struct sim *sim, const struct sim_balloon *balloon, const struct guard_rows *rows);
     /* EFFECT_FORCES: the longest step, s, that follows what it moves beside the points, by what bounds have
-     * just found: what flows between balloons, or a weight. NULL: any step does. What that is, and why it is
-     * fast. */
+     * just found: what flows between balloons, a weight, or the creep of viscous springs. NULL: any step
+     * does. What that is, and why it is fast. */
     double (*follow)(const struct sim *sim, const struct sim_balloon *balloon);
     const char *follows, *follows_why;
     bool damps; /* EFFECT_FORCES: its forces depend on velocities */

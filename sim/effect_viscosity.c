@@ -10,6 +10,8 @@
 #include "sim/effects.h"
 #include "sim/guard.h"
 
+#include <math.h>
+
 static bool wanted(const struct scene_balloon *balloon)
 {
     return balloon->viscosity.on;
@@ -109,6 +111,14 @@ static void bound(const struct sim *sim, const struct sim_balloon *b, const stru
                                                           sim->current_spring_const[e];
 }
 
+/* Arms are moved by their rates, whatever the method does with the points: over T an arm comes to where it
+ * pulls at nothing, and over more it would overshoot that. */
+static double follow(const struct sim *sim, const struct sim_balloon *b)
+{
+    (void)sim;
+    return b->arm_count > 0 ? b->scene->viscosity.time : INFINITY;
+}
+
 static double edge_energy(const struct sim *sim, const struct sim_balloon *b, uint32_t e)
 {
     if (e - b->edge_begin >= b->arm_count)
@@ -139,6 +149,9 @@ const struct effect effect_viscosity = {.name = "viscosity",
                                         .open = open,
                                         .product = product,
                                         .bound = bound,
+                                        .follow = follow,
+                                        .follows = "the creep",
+                                        .follows_why = "which is as fast as its viscosity.time says",
                                         .energy = energy,
                                         .power = power,
                                         .edge_energy = edge_energy,
