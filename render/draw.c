@@ -91,7 +91,7 @@ void draw_close(struct draw *draw, const struct gl *gl)
 /* Of all that is in the buffer. */
 static size_t indices_before(const struct draw *draw, const struct geometry *g, int eye)
 {
-    size_t count = 3 * g->opaque.count;
+    size_t count = 3 * g->opaque;
     for (int i = 0; i < eye && draw->cells; i++)
         count += draw->cells[i].indices.count;
     return count;
@@ -106,7 +106,7 @@ static void upload_indices(const struct gl *gl, size_t first, const uint32_t *in
 void draw_upload(struct draw *draw, const struct gl *gl, const struct geometry *g, const struct cells *cells)
 {
     draw->cells = cells;
-    const size_t own = cells ? 3 * g->opaque.count : g->indices.count;
+    const size_t own = cells ? 3 * g->opaque : g->indices.count;
     const size_t all = cells ? indices_before(draw, g, 2) : own;
     gl->BindVertexArray(draw->arrays);
     gl->BindBuffer(GL_ARRAY_BUFFER, draw->vertices);
@@ -173,8 +173,17 @@ static void use_skin(const struct draw *draw, const struct gl *gl, const struct 
     gl->BindVertexArray(draw->arrays);
 }
 
+/* Mesa's software notes every triangle, about 100 bytes each, before it draws the first. */
+enum { INDICES_AT_ONCE = 3 << 18 };
+
 static void draw_indices(const struct gl *gl, size_t first, size_t count)
 {
+    while (count > INDICES_AT_ONCE) {
+        draw_indices(gl, first, INDICES_AT_ONCE);
+        gl->Finish();
+        first += INDICES_AT_ONCE;
+        count -= INDICES_AT_ONCE;
+    }
     gl->DrawElements(GL_TRIANGLES, (GLsizei)count, GL_UNSIGNED_INT, (const void *)(first * sizeof(uint32_t)));
 }
 
@@ -183,10 +192,10 @@ void draw_opaque(const struct draw *draw, const struct gl *gl, enum render_style
 {
     gl->Enable(GL_DEPTH_TEST);
     gl->Disable(GL_BLEND);
-    if (!g->opaque.count)
+    if (!g->opaque)
         return;
     use_skin(draw, gl, &draw->skins[style][LIGHT_BLENDED], eye, g);
-    draw_indices(gl, 0, 3 * g->opaque.count);
+    draw_indices(gl, 0, 3 * g->opaque);
 }
 
 /* The part of a cell that is drawn, in the framebuffer; false: none. */
@@ -235,7 +244,7 @@ void draw_translucent(const struct draw *draw, const struct gl *gl, enum render_
     if (draw->cells)
         draw_cells(draw, gl, place, eye, g);
     else
-        draw_indices(gl, 3 * g->opaque.count, 3 * g->translucent.count);
+        draw_indices(gl, 3 * g->opaque, 3 * g->translucent.count);
 }
 
 void draw_depths(const struct draw *draw, const struct gl *gl, const struct draw_place *place,

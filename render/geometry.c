@@ -11,6 +11,10 @@ static const double limit = 1e9;
 static const double nearest_drawn = 0.004, farthest_drawn = 1e4;
 static const float opaque_from = 0.999f; /* less than half of 1/255 shows through */
 
+/* Mesa's software finds a vertex in its buffer by 32 bits with a sign. */
+static const size_t most_vertices = INT32_MAX / sizeof(struct geometry_vertex);
+static const uint32_t no_vertex = UINT32_MAX;
+
 /* What building one skin needs to hand around. */
 struct building {
     struct geometry *geometry;
@@ -19,6 +23,7 @@ struct building {
     size_t skin_number;
     uint32_t first_vertex; /* of the points' shared vertices */
     bool shared;           /* points have vertices of their own: smooth normals, no facets */
+    bool alike;            /* corners of facets with the same normal have one vertex */
     bool is_latex;
     struct geometry_latex latex;
     double closed; /* 1: nothing of the skin is torn; as latex measures it, or by its triangles */
@@ -158,6 +163,23 @@ static bool is_crease(const struct building *b, const double normal[3], const do
     return b->is_latex && vec3_dot(normal, facet) < 0.34 * vec3_length(normal);
 }
 
+/* The vertex of this point that is the same as the one behind the last, which is added where there is none: a
+ * list for each point leads from one to the next. */
+static uint32_t add_vertex_once(const struct building *b, uint32_t point)
+{
+    struct geometry *g = b->geometry;
+    const struct geometry_vertex *vertices = g->vertices.items;
+    uint32_t *link = &g->links.items[point];
+    while (*link != no_vertex &&
+           memcmp(&vertices[*link], &vertices[g->vertices.count], sizeof *vertices) != 0)
+        link = &g->links.items[b->skin->mesh->point_count + (*link - b->first_vertex)];
+    if (*link == no_vertex) {
+        *link = (uint32_t)g->vertices.count++;
+        g->links.items[g->links.count++] = no_vertex;
+    }
+    return *link;
+}
+
 /* The vertex of a triangle's corner: the point's own, or one added for this corner. */
 static uint32_t corner_vertex(struct building *b, uint32_t t, int k, const double facet[3])
 {
@@ -169,10 +191,10 @@ static uint32_t corner_vertex(struct building *b, uint32_t t, int k, const doubl
         return b->first_vertex + point;
     const float *mean = b->geometry->sums.items + 3 * (size_t)point;
     bool own = b->skin->facets;
-    uint32_t vertex = (uint32_t)b->geometry->vertices.count++;
-    set_vertex(b, &b->geometry->vertices.items[vertex], point, smooth ? mesh->normal[point] : facet,
-               own ? film_of(b, t) : mean[0], own ? gloss_of(b, t) : mean[1]);
-    return vertex;
+    set_vertex(b, &b->geometry->vertices.items[b->geometry->vertices.count], point,
+               smooth ? mesh->normal[point] : facet, own ? film_of(b, t) : mean[0],
+               own ? gloss_of(b, t) : mean[1]);
+    return b->alike ? add_vertex_once(b, point) : (uint32_t)b->geometry->vertices.count++;
 }
 
 /* The normal of the triangle itself; any direction where it has no area. False where it is too far. */
@@ -226,43 +248,68 @@ static void add_triangle(struct building *b, uint32_t t)
     }
     triangle.nearness = order_nearness(corner, b->closed);
     if (opaque)
-        g->opaque.items[g->opaque.count++] = triangle;
+        memcpy(&g->indices.items[3 * g->opaque++], triangle.vertex, sizeof triangle.vertex);
     else
         g->translucent.items[g->translucent.count++] = triangle;
+}
+
+/* The lists of vertices of the skin's points, all empty. */
+static bool begin_lists(struct geometry *g, uint32_t points)
+{
+    g->links.count = 0;
+    if (!ARRAY_RESERVE(&g->links, points))
+        return false;
+    memset(g->links.items, 0xff, points * sizeof *g->links.items);
+    g->links.count = points;
+    return true;
+}
+
+static enum status add_triangles(struct building *b, struct error *err)
+{
+    struct geometry *g = b->geometry;
+    for (uint32_t t = 0; t < b->skin->mesh->triangle_count; t++) {
+        if (!is_drawn(b->skin, t))
+            continue;
+        if (g->vertices.count + 3 > most_vertices)
+            return error_set(err, STATUS_RANGE,
+                             "skin %zu: triangles with more than %zu corners cannot be drawn at once",
+                             b->skin_number, most_vertices);
+        if (!ARRAY_RESERVE(&g->vertices, 3) || (b->alike && !ARRAY_RESERVE(&g->links, 3)))
+            return error_no_memory(err, "the triangles to draw");
+        add_triangle(b, t);
+    }
+    return STATUS_OK;
 }
 
 static enum status add_skin(struct building *b, struct error *err)
 {
     struct geometry *g = b->geometry;
-    const struct mesh *mesh = b->skin->mesh;
-    size_t triangles = mesh->triangle_count, corners = 3 * triangles;
-    b->shared = mesh->normal && !b->skin->facets;
+    const struct render_skin *skin = b->skin;
+    const struct mesh *mesh = skin->mesh;
+    const size_t triangles = mesh->triangle_count, points = mesh->point_count;
+    b->shared = mesh->normal && !skin->facets;
+    b->alike = skin->facets && !skin->opacity && !skin->shininess && !skin->stretch;
     for (int i = 0; i < 3; i++)
-        b->colour[i] = (uint16_t)lrintf(clamp(b->skin->colour[i], 0, 1) * 65535);
+        b->colour[i] = (uint16_t)lrintf(clamp(skin->colour[i], 0, 1) * 65535);
     enum status status = check_triangles(b, err);
     if (status || !triangles)
         return status;
     g->sums.count = g->fans.count = 0;
-    if (g->vertices.count + corners + mesh->point_count > UINT32_MAX)
-        return error_set(err, STATUS_RANGE, "skin %zu: more triangles than can be drawn at once",
-                         b->skin_number);
-    if (!ARRAY_RESERVE(&g->vertices, corners + (b->shared ? mesh->point_count : 0)) ||
-        !ARRAY_RESERVE(&g->opaque, triangles) || !ARRAY_RESERVE(&g->translucent, triangles) ||
-        !ARRAY_RESERVE(&g->sums, 3 * (size_t)mesh->point_count) ||
-        (b->is_latex && !ARRAY_RESERVE(&g->fans, mesh->point_count)))
+    g->indices.count = 3 * g->opaque;
+    if (!ARRAY_RESERVE(&g->vertices, (b->alike ? 0 : 3 * triangles) + (b->shared ? points : 0)) ||
+        !ARRAY_RESERVE(&g->indices, 3 * triangles) || !ARRAY_RESERVE(&g->translucent, triangles) ||
+        !ARRAY_RESERVE(&g->sums, 3 * points) || (b->is_latex && !ARRAY_RESERVE(&g->fans, points)) ||
+        (b->alike && !begin_lists(g, mesh->point_count)))
         return error_no_memory(err, "the triangles to draw");
     if (b->is_latex)
-        latex_measure(&b->latex, b->skin, g->fans.items);
-    b->closed = b->is_latex ? (double)b->latex.closed : order_is_whole(b->skin);
+        latex_measure(&b->latex, skin, g->fans.items);
+    b->closed = b->is_latex ? (double)b->latex.closed : order_is_whole(skin);
     b->colour[3] = (uint16_t)lrintf(b->latex.closed * 65535);
     b->first_vertex = (uint32_t)g->vertices.count;
     average_at_points(b);
     if (b->shared)
         add_points(b);
-    for (uint32_t t = 0; t < mesh->triangle_count; t++)
-        if (is_drawn(b->skin, t))
-            add_triangle(b, t);
-    return STATUS_OK;
+    return add_triangles(b, err);
 }
 
 /* Points of what others draw, so that the projection and the box in sight hold it too. */
@@ -295,7 +342,7 @@ enum status geometry_build(struct geometry *g, const struct render_view *view,
 {
     struct camera_space space;
     camera_space_of(&view->camera, &space);
-    g->vertices.count = g->opaque.count = g->translucent.count = 0;
+    g->vertices.count = g->opaque = g->translucent.count = 0;
     g->nearest = INFINITY;
     g->farthest = 0;
     for (int i = 0; i < 2; i++) {
@@ -326,10 +373,10 @@ enum status geometry_build(struct geometry *g, const struct render_view *view,
 void geometry_clear(struct geometry *g)
 {
     free(g->vertices.items);
-    free(g->opaque.items);
     free(g->translucent.items);
     free(g->spare.items);
     free(g->indices.items);
+    free(g->links.items);
     free(g->sums.items);
     free(g->fans.items);
     free(g->shadows.items);

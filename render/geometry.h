@@ -49,11 +49,16 @@ struct geometry {
     struct {
         struct order_triangle *items;
         size_t count, capacity;
-    } opaque, translucent, spare;
+    } translucent, spare;
     struct {
         uint32_t *items;
         size_t count, capacity;
-    } indices; /* 3 for each triangle, opaque ones first */
+    } indices;     /* 3 for each triangle, opaque ones first */
+    size_t opaque; /* triangles */
+    struct {
+        uint32_t *items;
+        size_t count, capacity;
+    } links; /* the first vertex of each point of a skin, and behind each vertex the next one of its point */
     struct {
         float *items;
         size_t count, capacity;

@@ -51,6 +51,7 @@
     X(Enable, ENABLE)                                                 \
     X(EnableVertexAttribArray, ENABLEVERTEXATTRIBARRAY)               \
     X(EndQuery, ENDQUERY)                                             \
+    X(Finish, FINISH)                                                 \
     X(Flush, FLUSH)                                                   \
     X(FramebufferRenderbuffer, FRAMEBUFFERRENDERBUFFER)               \
     X(FramebufferTexture2D, FRAMEBUFFERTEXTURE2D)                     \

@@ -65,16 +65,14 @@ void order_sort(struct order_triangle *triangles, struct order_triangle *spare, 
 
 enum status order_indices(struct geometry *g, bool sorted, struct error *err)
 {
-    size_t opaque = g->opaque.count, translucent = g->translucent.count;
-    g->indices.count = g->spare.count = 0;
-    if (!ARRAY_RESERVE(&g->spare, translucent) || !ARRAY_RESERVE(&g->indices, 3 * (opaque + translucent)))
+    const size_t translucent = g->translucent.count;
+    g->spare.count = 0;
+    g->indices.count = 3 * g->opaque;
+    if (!ARRAY_RESERVE(&g->spare, translucent) || !ARRAY_RESERVE(&g->indices, 3 * translucent))
         return error_no_memory(err, "the triangles' order");
     if (sorted)
         order_sort(g->translucent.items, g->spare.items, translucent);
-    for (size_t i = 0; i < opaque; i++)
-        memcpy(g->indices.items + 3 * i, g->opaque.items[i].vertex, 3 * sizeof(uint32_t));
-    for (size_t i = 0; i < translucent; i++)
-        memcpy(g->indices.items + 3 * (opaque + i), g->translucent.items[i].vertex, 3 * sizeof(uint32_t));
-    g->indices.count = 3 * (opaque + translucent);
+    for (size_t i = 0; i < translucent; i++, g->indices.count += 3)
+        memcpy(g->indices.items + g->indices.count, g->translucent.items[i].vertex, 3 * sizeof(uint32_t));
     return STATUS_OK;
 }

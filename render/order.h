@@ -36,8 +36,8 @@ uint32_t order_nearness(double corner[3][3], double closed);
 /* Farthest first; spare has room for as many. Equal ones keep their order. */
 void order_sort(struct order_triangle *triangles, struct order_triangle *spare, size_t count);
 
-/* Fills the geometry's indices: opaque triangles, then translucent ones, farthest first if they are to be
- * sorted. Error: STATUS_NO_MEMORY. */
+/* Puts the geometry's translucent triangles behind the opaque ones in its indices, farthest first if they are
+ * to be sorted. Error: STATUS_NO_MEMORY. */
 enum status order_indices(struct geometry *geometry, bool sorted, struct error *err);
 
 #endif
