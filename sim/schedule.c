@@ -7,18 +7,23 @@
 #include <math.h>
 #include <string.h>
 
+/* Of springs, and of what beside them is as stiff as they are. */
+static double held_by_springs(struct sim *sim, const struct sim_balloon *balloon)
+{
+    return ledger_elastic(sim, balloon->edge_begin, balloon->edge_end) + effects_energy(sim);
+}
+
 /* Springs that are stretched hold more, or less, from one moment to the next: the user's work. */
 static void change_springs(struct sim *sim, struct sim_balloon *balloon, double factor)
 {
-    const uint32_t begin = balloon->edge_begin, end = balloon->edge_end;
-    const double before = sim->ledger.on ? ledger_elastic(sim, begin, end) : 0;
+    const double before = sim->ledger.on ? held_by_springs(sim, balloon) : 0;
     balloon->now->spring_factor = factor;
     if (balloon->fracture && !balloon->membrane)
         balloon->fracture->now.next_look = sim->time; /* its intervals go by how stiff they were */
-    for (uint32_t e = begin; e < end; e++)
+    for (uint32_t e = balloon->edge_begin; e < balloon->edge_end; e++)
         sim->current_spring_const[e] = sim->init_spring_const[e] * factor;
     if (sim->ledger.on)
-        sim->ledger.account.user += ledger_elastic(sim, begin, end) - before;
+        sim->ledger.account.user += held_by_springs(sim, balloon) - before;
 }
 
 static void change_balloon(struct sim *sim, struct sim_balloon *balloon, const char *key, double value)
