@@ -258,7 +258,7 @@ uint32_t fracture_rip(struct sim *sim, struct sim_balloon *b)
     const struct scene_rip *rip = &b->scene->rip;
     uint32_t nearest = b->point_begin;
     double most = -INFINITY;
-    for (uint32_t p = b->point_begin; p < b->topology->old_points; p++) {
+    for (uint32_t p = b->point_begin; p < b->point_end; p++) {
         double from_centre[3];
         vec3_sub(b->topology->rest[p - b->point_begin], b->centre, from_centre);
         const double along = vec3_dot(from_centre, rip->place) / vec3_length(from_centre);

@@ -252,6 +252,25 @@ static void files_have_the_points_in_the_order_in_which_they_were_made(void **un
     deflate(&it);
 }
 
+/* A rip opens where the scene has it, also if that is at a point whose number has moved up past those that
+ * there were before anything tore. */
+static void a_rip_knows_the_points_that_have_moved_up(void **unused)
+{
+    (void)unused;
+    struct inflated it;
+    inflate(&it, &(struct inflation){.level = 3, .stretch = 1.5, .keys = {"balloons[0].rip.length=0.3"}});
+    cut_anywhere(&it, 11, 200);
+    put_in_order(&it);
+    uint32_t point = it.balloon->point_end - 1;
+    while (fracture_is_rim(&it.sim, it.balloon, point))
+        point--;
+    assert_true(point >= it.balloon->topology->old_points);
+    memcpy(it.scene.balloons[0].rip.place, crack_rest(it.balloon, point), 3 * sizeof(double));
+    assert_true(fracture_rip(&it.sim, it.balloon) > 0);
+    assert_true(fracture_is_rim(&it.sim, it.balloon, point));
+    deflate(&it);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -261,6 +280,7 @@ int main(void)
         cmocka_unit_test(parts_work_on_it_as_on_whole_skin),
         cmocka_unit_test(it_wakes_with_a_tear_and_sleeps_when_all_are_in_their_places),
         cmocka_unit_test(files_have_the_points_in_the_order_in_which_they_were_made),
+        cmocka_unit_test(a_rip_knows_the_points_that_have_moved_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
