@@ -49,6 +49,12 @@ struct slide {
     atomic_bool any;
 };
 
+/* In an edge's spring, and in an arm beside it (effect_viscosity.c), which slips along. */
+static double held_by_edge(const struct sim *sim, uint32_t e)
+{
+    return sim_spring_energy(sim, e) + effects_edge_energy(sim, e);
+}
+
 /* k (e - ds) = y + H (s + ds) for the way ds that is still to go, e the spring's elongation; no edge
  * slips to less than nothing. */
 static bool slip_edge(struct sim *sim, struct sim_balloon *b, uint32_t e)
@@ -63,11 +69,11 @@ static bool slip_edge(struct sim *sim, struct sim_balloon *b, uint32_t e)
         return false;
     const double way = over / (k + block->hardening);
     const double signed_way = fmax(copysign(way, elongation), -sim->rest_length[e] / 2);
-    const double before = sim_spring_energy(sim, e);
+    const double before = sim->ledger.on ? held_by_edge(sim, e) : 0;
     *slipped += fabs(signed_way);
     sim->rest_length[e] += signed_way;
     if (sim->ledger.on)
-        sim->scalar[sim->ledger.first + LEDGER_DISSIPATED] += before - sim_spring_energy(sim, e);
+        sim->scalar[sim->ledger.first + LEDGER_DISSIPATED] += before - held_by_edge(sim, e);
     return true;
 }
 

@@ -203,6 +203,27 @@ static void viscosity_is_in_the_ledger(void **state)
     close_balloon(&b);
 }
 
+/* A spring that slips lets its arm go by the same way, and what both held is booked: what is left is the
+ * method's error, 5e-9 with steps of T/100. */
+static void what_an_arm_loses_to_slip_is_in_the_ledger(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 1,
+                 UNIT("balloons[0].damping=0.1", "balloons[0].point_mass=0.1",
+                      "balloons[0].viscosity.ratio=3", "balloons[0].viscosity.time=0.2", "time.step=0.002",
+                      "balloons[0].plasticity.yield=5", "balloons[0].pressure=0", "time.integrator=rk4"));
+    for (uint32_t p = 0; p < b.sim.point_count; p++)
+        for (int i = 0; i < 3; i++)
+            b.sim.position[p][i] *= 1.2;
+    open_books(&b);
+    steps(&b, 50);
+    const struct ledger_balance account = balance(&b);
+    assert_true(b.sim.balloons[0].slip[0] > 0 && account.dissipated > 1);
+    assert_near(account.error, 0, 1e-6 * account.dissipated);
+    close_balloon(&b);
+}
+
 /* All edges of a held, stretched balloon let go, one after the other: what was in springs and
  * arms is booked, to the rounding of its sum. A unit that slips holds nothing itself: what it
  * took was booked as it slipped. */
@@ -263,6 +284,7 @@ int main(void)
         cmocka_unit_test(a_spring_that_is_not_pulled_hard_does_not_slip),
         cmocka_unit_test(every_spring_slips_in_the_step_in_which_it_must),
         cmocka_unit_test(viscosity_is_in_the_ledger),
+        cmocka_unit_test(what_an_arm_loses_to_slip_is_in_the_ledger),
         cmocka_unit_test(what_breaks_takes_its_units_energy_along),
         cmocka_unit_test(viscous_springs_are_equal_for_any_number_of_threads),
     };
