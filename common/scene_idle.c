@@ -34,13 +34,19 @@ static bool method_keeps_the_step(const struct scene *scene, size_t number)
     return !is_method(scene, names, 1) && !method_keeps_a_tolerance(scene, number);
 }
 
-/* All go by it where gas flows between balloons (guard.h). */
+/* What moves beside the points, all have to follow (struct effect). */
+static bool has_more_than_points(const struct scene_balloon *b)
+{
+    return b->tube.on || (b->string.on && b->string.weight > 0) ||
+           (b->viscosity.on && b->viscosity.ratio > 0);
+}
+
 static bool method_asks_no_guard(const struct scene *scene, size_t number)
 {
-    bool tube = false;
+    bool more = false;
     for (size_t i = 0; i < scene->balloon_count; i++)
-        tube |= scene->balloons[i].tube.on;
-    return method_keeps_a_tolerance(scene, number) && !tube;
+        more |= has_more_than_points(&scene->balloons[i]);
+    return method_keeps_a_tolerance(scene, number) && !more;
 }
 
 static bool view_is_mono(const struct scene *scene, size_t number)

@@ -40,14 +40,14 @@ static const char *told_of(const char *text, const char *const *sets)
 
 /* A scene in which a key is idle, what is told of it, and what makes somebody go by it. */
 static const struct {
-    const char *text, *message, *heeded_by[3];
+    const char *text, *message, *heeded_by[4];
 } cases[] = {
     {"time = { tolerance = 1e-4; integrator = \"rk4\"; };\n" BALLOON(""),
      "time: tolerance does nothing: this",
      {"time.integrator=auto", "time.integrator=rk-adaptive"}},
     {"time = { guard = \"refuse\"; integrator = \"cvode-bdf\"; };\n" BALLOON(""),
      "time: guard does nothing: this integrator chooses its own",
-     {"time.integrator=auto"}},
+     {"time.integrator=auto", "balloons[0].string.weight=1", "balloons[0].viscosity.ratio=1"}},
     {"view = { eye_distance = 0.1; stereo = \"mono\"; };\n" BALLOON(""),
      "view: eye_distance does nothing",
      {"view.stereo=left"}},
