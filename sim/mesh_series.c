@@ -137,6 +137,27 @@ static enum status remove_one(struct mesh_series *series, DIR *folder, const cha
     return status;
 }
 
+/* ParaView's own: file-series-version 1.0, names beside the list. */
+static enum status write_list(const struct mesh_series *series, struct error *err)
+{
+    struct file_out *out = NULL;
+    char *path = list_path(series);
+    enum status status = path ? file_out_open(path, &out, err) : error_no_memory(err, series->folder);
+    if (!status) {
+        FILE *stream = file_out_stream(out);
+        fputs("{\n  \"file-series-version\": \"1.0\",\n  \"files\": [\n", stream);
+        for (size_t i = 0; i < series->count; i++)
+            fprintf(stream, "    {\"name\": \"mesh_%04" PRIu64 ".%s\", \"time\": %.17g}%s\n",
+                    series->items[i].number, series->extension, series->items[i].time,
+                    i + 1 < series->count ? "," : "");
+        fputs("  ]\n}\n", stream);
+        status = file_out_commit(out, err);
+    }
+    free(path);
+    return status;
+}
+
+/* The earlier run's list goes too, but for what this one goes on with. */
 static enum status remove_earlier(struct mesh_series *series, struct error *err)
 {
     enum status status = STATUS_OK;
@@ -147,8 +168,8 @@ static enum status remove_earlier(struct mesh_series *series, struct error *err)
         if (is_ours(series, entry->d_name))
             status = remove_one(series, folder, entry->d_name, err);
     closedir(folder);
-    if (status)
-        return status;
+    if (status || series->count > 0)
+        return status ? status : write_list(series, err);
     char *list = list_path(series);
     if (!list)
         return error_no_memory(err, series->folder);
@@ -176,24 +197,9 @@ enum status mesh_series_add(struct mesh_series *series, struct error *err)
     return status;
 }
 
-/* ParaView's own: file-series-version 1.0, names beside the list. */
-static enum status write_list(const struct mesh_series *series, struct error *err)
+enum status mesh_series_list(const struct mesh_series *series, struct error *err)
 {
-    struct file_out *out = NULL;
-    char *path = list_path(series);
-    enum status status = path ? file_out_open(path, &out, err) : error_no_memory(err, series->folder);
-    if (!status) {
-        FILE *stream = file_out_stream(out);
-        fputs("{\n  \"file-series-version\": \"1.0\",\n  \"files\": [\n", stream);
-        for (size_t i = 0; i < series->count; i++)
-            fprintf(stream, "    {\"name\": \"mesh_%04" PRIu64 ".%s\", \"time\": %.17g}%s\n",
-                    series->items[i].number, series->extension, series->items[i].time,
-                    i + 1 < series->count ? "," : "");
-        fputs("  ]\n}\n", stream);
-        status = file_out_commit(out, err);
-    }
-    free(path);
-    return status;
+    return series && series->begun ? write_list(series, err) : STATUS_OK;
 }
 
 enum status mesh_series_close(struct mesh_series *series, size_t *removed, struct error *err)
@@ -201,7 +207,7 @@ enum status mesh_series_close(struct mesh_series *series, size_t *removed, struc
     *removed = 0;
     if (!series)
         return STATUS_OK;
-    enum status status = series->begun ? write_list(series, err) : STATUS_OK;
+    enum status status = mesh_series_list(series, err);
     *removed = series->removed;
     skin_mesh_clear(&series->skin);
     free(series->folder);

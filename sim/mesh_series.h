@@ -5,6 +5,7 @@
  *     struct mesh_series_options options = {.folder = "meshes"};
  *     if (mesh_series_open(&sim, &options, &series, err)) ...
  *     if (mesh_series_add(series, err)) ...        for each frame
+ *     if (mesh_series_list(series, err)) ...       with each checkpoint
  *     if (mesh_series_close(series, &removed, err)) ...   always
  *
  * A mesh is whole or not there. With the first one those go that an earlier run has left there under the same
@@ -34,6 +35,10 @@ enum status mesh_series_open(struct sim *sim, const struct mesh_series_options *
 
 /* Writes the state as it is. Errors: STATUS_FILE, STATUS_NO_MEMORY. */
 enum status mesh_series_add(struct mesh_series *series, struct error *err);
+
+/* Writes the list of all meshes that are there so far, where there are any: with each checkpoint, so that a
+ * run that is killed can be gone on with. NULL is fine. Errors: STATUS_FILE, STATUS_NO_MEMORY. */
+enum status mesh_series_list(const struct mesh_series *series, struct error *err);
 
 /* Writes the list of all meshes that are there, where there are any, and frees the series, whatever it
  * returns. *removed becomes the number of an earlier run's meshes that are gone. NULL is fine. Errors:

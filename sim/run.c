@@ -64,7 +64,9 @@ static enum status keep(struct run *run, struct error *err)
         whole.rows = (char *)sim_log_rows(run->outputs.log, &whole.row_bytes);
     if (run->outputs.log && !whole.rows)
         return error_no_memory(err, "the checkpoint");
-    enum status status = checkpoint_save(run->sim, &whole, run->options->checkpoint, err);
+    enum status status = mesh_series_list(run->outputs.series, err);
+    if (!status)
+        status = checkpoint_save(run->sim, &whole, run->options->checkpoint, err);
     run->kept = now();
     return status;
 }

@@ -127,14 +127,27 @@ static void no_meshes_of_two_runs_are_ever_together(void **state)
     close_balloon(&b);
 }
 
+/* The first part is killed after its checkpoint, the second before its first one: neither is closed when the
+ * next goes on. */
 static void a_run_that_goes_on_keeps_the_list_of_its_first_part(void **state)
 {
     (void)state;
     struct balloon b;
+    struct mesh_series *part[2];
+    struct error err = {0};
     char text[1024] = "";
     open_balloon(&b, 1, SETTINGS("balloons[0].pressure=1", "time.step=0.25"));
-    add_frames(&b, &(struct mesh_series_options){.folder = "."}, 4, 1);
-    add_frames(&b, &(struct mesh_series_options){.folder = ".", .first = 2}, 1, 2);
+    for (int i = 0; i < 2; i++) {
+        const struct mesh_series_options options = {.folder = ".", .first = i ? 2 : 0};
+        assert_ok(mesh_series_open(&b.sim, &options, &part[i], &err), &err);
+        for (int frame = 0; frame < 4; frame++) {
+            assert_ok(mesh_series_add(part[i], &err), &err);
+            assert_ok(i ? STATUS_OK : mesh_series_list(part[i], &err), &err);
+            steps(&b, 1);
+        }
+    }
+    b.sim.time = 1;
+    add_frames(&b, &(struct mesh_series_options){.folder = ".", .first = 2}, 1, 4);
     FILE *list = fopen("mesh.ply.series", "r");
     text[fread(text, 1, sizeof text - 1, list)] = '\0';
     fclose(list);
@@ -142,6 +155,8 @@ static void a_run_that_goes_on_keeps_the_list_of_its_first_part(void **state)
                               "    {\"name\": \"mesh_0000.ply\", \"time\": 0},\n"
                               "    {\"name\": \"mesh_0001.ply\", \"time\": 0.25},\n"
                               "    {\"name\": \"mesh_0002.ply\", \"time\": 1}\n  ]\n}\n");
+    for (int i = 0; i < 2; i++)
+        assert_ok(mesh_series_close(part[i], &(size_t){0}, &err), &err);
     close_balloon(&b);
 }
 
