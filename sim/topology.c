@@ -210,6 +210,8 @@ static uint32_t copy_point(struct sim *sim, struct sim_balloon *b, uint32_t poin
     for (int i = 0; i < 4; i++) {
         sim->position[copy][i] = sim->position[point][i];
         sim->velocity[copy][i] = sim->velocity[point][i];
+        if (sim->before)
+            sim->before[copy][i] = sim->before[point][i];
         sim->force[copy][i] = 0;
         sim->normal[copy][i] = sim->normal[point][i];
         for (int s = 0; s < sim->integrator->vectors; s++)

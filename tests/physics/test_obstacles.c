@@ -3,6 +3,7 @@
 #include "../unit/balloon.h"
 #include "common/random.h"
 #include "common/vec3.h"
+#include "sim/fracture.h"
 #include "sim/obstacles.h"
 #include "sim/sweep.h"
 
@@ -228,6 +229,22 @@ static void test_a_needle_slits_a_membrane_where_it_meets_it(void **state)
     close_balloon(&b);
 }
 
+/* The second one is half-way between the origin and what the first has cut: new points have not come from
+ * there. */
+static void test_a_needle_meets_no_point_that_another_has_made(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 3,
+                 SETTINGS("balloons[0].position=[200,0,0]", "balloons[0].fracture.mode=tear",
+                          "needles[0].from=[200,-46,0]", "needles[0].velocity=[0,300,0]",
+                          "needles[1].from=[100,-22.5,0]", "time.step=0.01", "balloons[0].pressure=0"));
+    steps(&b, 1);
+    assert_true(b.sim.balloons[0].topology->now.points > 0);
+    assert_int_equal(b.sim.balloons[0].fracture->now.births, 1);
+    close_balloon(&b);
+}
+
 static void test_skin_that_grows_into_a_needle_tears(void **state)
 {
     (void)state;
@@ -331,6 +348,7 @@ int main(void)
         cmocka_unit_test(test_a_gap_is_no_wider_than_it_is),
         cmocka_unit_test(test_a_needle_tears_the_skin_where_and_when_it_arrives),
         cmocka_unit_test(test_a_needle_slits_a_membrane_where_it_meets_it),
+        cmocka_unit_test(test_a_needle_meets_no_point_that_another_has_made),
         cmocka_unit_test(test_skin_that_grows_into_a_needle_tears),
         cmocka_unit_test(test_bad_surroundings_are_refused_with_a_reason),
     };
