@@ -27,7 +27,7 @@ struct prick {
     lanes low, high;
 };
 
-/* Where the skin is met first. */
+/* Where the skin is met next. */
 struct hole {
     double time; /* 0 to 1; INFINITY: nowhere */
     uint32_t triangle;
@@ -49,21 +49,31 @@ static double apart(const struct sim *sim, const uint32_t *p, const struct prick
     return beside[2] > most ? beside[2] : most;
 }
 
-/* When the needle comes to the triangle; INFINITY: it does not. */
-static double meeting(const struct sim *sim, uint32_t triangle, const struct prick *prick, double gap)
+/* On the way from a to b. */
+static void place_at(double time, const double *a, const double *b, double place[3])
+{
+    for (int i = 0; i < 3; i++)
+        place[i] = a[i] + time * (b[i] - a[i]);
+}
+
+/* When the needle comes to the triangle, `since` or later; INFINITY: it does not. */
+static double meeting(const struct sim *sim, uint32_t triangle, const struct prick *prick, double since,
+                      double gap)
 {
     const uint32_t *p = sim->triangle_point[triangle];
     double from[4][3], to[4][3];
     struct ccd_touch touch;
-    memcpy(from[0], prick->from, sizeof from[0]);
+    place_at(since, prick->from, prick->to, from[0]);
     memcpy(to[0], prick->to, sizeof to[0]);
     for (int k = 0; k < 3; k++) {
-        memcpy(from[k + 1], sim->before[p[k]], sizeof from[k]);
+        place_at(since, sim->before[p[k]], sim->position[p[k]], from[k + 1]);
         memcpy(to[k + 1], sim->position[p[k]], sizeof to[k]);
     }
     if (ccd_distance(CCD_POINT_TRIANGLE, from, &touch) <= gap)
-        return 0;
-    return ccd_meet(CCD_POINT_TRIANGLE, from, to, gap / 2, &touch) ? touch.time : INFINITY;
+        return since;
+    if (!ccd_meet(CCD_POINT_TRIANGLE, from, to, gap / 2, &touch))
+        return INFINITY;
+    return since + touch.time * (1 - since);
 }
 
 /* Among the triangles of a part. */
@@ -74,6 +84,7 @@ struct search {
 
 struct job {
     const struct prick *prick;
+    double since; /* 0 to 1 */
     struct search *search;
 };
 
@@ -87,7 +98,7 @@ static void search_part(struct sim *sim, const struct sim_part *part, void *cont
             continue;
         const double beside = apart(sim, sim->triangle_point[t], job->prick) - gap;
         found.room = beside < found.room ? beside : found.room;
-        const double time = beside > 0 ? INFINITY : meeting(sim, t, job->prick, gap);
+        const double time = beside > 0 ? INFINITY : meeting(sim, t, job->prick, job->since, gap);
         if (time < found.first.time)
             found.first = (struct hole){time, t};
     }
@@ -95,10 +106,10 @@ static void search_part(struct sim *sim, const struct sim_part *part, void *cont
 }
 
 /* The first of all; of two at once the one with the lower number. */
-static struct search search_all(struct sim *sim, const struct prick *prick)
+static struct search search_all(struct sim *sim, const struct prick *prick, double since)
 {
     struct search *parts = sim->needles->search, all = {{INFINITY, 0}, INFINITY};
-    sim_each_part(sim, search_part, &(struct job){prick, parts});
+    sim_each_part(sim, search_part, &(struct job){prick, since, parts});
     for (size_t i = 0; i < sim->part_count; i++) {
         all.room = fmin(all.room, parts[i].room);
         if (parts[i].first.time < all.first.time)
@@ -140,9 +151,31 @@ static double come_nearer(const struct sim *sim)
 static void start_tear(struct sim *sim, const struct prick *prick, const struct hole *hole)
 {
     double place[3];
-    for (int k = 0; k < 3; k++)
-        place[k] = prick->from[k] + hole->time * (prick->to[k] - prick->from[k]);
+    place_at(hole->time, prick->from, prick->to, place);
     sim_prick(sim, hole->triangle, place);
+}
+
+/* When it has gone so far beyond a hole that the next skin it meets is another wall, or another balloon: only
+ * the fastest needles do so within a step. */
+static double time_beyond(const struct sim *sim, const struct prick *prick, const struct hole *hole)
+{
+    const double beyond = 0.15 * sim_balloon_of(sim, hole->triangle)->radius;
+    return hole->time + beyond / vec3_distance(prick->from, prick->to);
+}
+
+/* Tears the skin wherever the needle has met it in the last step. */
+static void follow_needle(struct sim *sim, const struct scene_needles *needle)
+{
+    const struct prick prick = prick_of(sim, needle);
+    for (double since = 0; since < 1;) {
+        const struct search found = search_all(sim, &prick, since);
+        sim->needles->room = fmin(sim->needles->room, found.room);
+        if (sim->time < needle->at || isinf(found.first.time))
+            return;
+        start_tear(sim, &prick, &found.first);
+        const double beyond = time_beyond(sim, &prick, &found.first);
+        since = beyond > found.first.time ? beyond : 1; /* 1: it is so fast that both are one number */
+    }
 }
 
 /* Nothing is looked at while needles are further from all of the skin than they and it have
@@ -157,14 +190,8 @@ static void apply(struct sim *sim, struct sim_balloon *balloon)
         return;
     }
     needles->room = INFINITY;
-    for (size_t i = 0; i < sim->scene->needles_count; i++) {
-        const struct scene_needles *needle = &sim->scene->needles[i];
-        const struct prick prick = prick_of(sim, needle);
-        const struct search found = search_all(sim, &prick);
-        needles->room = fmin(needles->room, found.room);
-        if (sim->time >= needle->at && found.first.time < INFINITY)
-            start_tear(sim, &prick, &found.first);
-    }
+    for (size_t i = 0; i < sim->scene->needles_count; i++)
+        follow_needle(sim, &sim->scene->needles[i]);
 }
 
 static enum status open(struct sim *sim, struct sim_balloon *balloon, struct error *err)

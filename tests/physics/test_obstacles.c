@@ -229,6 +229,31 @@ static void test_a_needle_slits_a_membrane_where_it_meets_it(void **state)
     close_balloon(&b);
 }
 
+/* 200 in a step, through the whole balloon: on either side three edges let go, or skin is slit. */
+static void test_a_needle_that_goes_right_through_in_a_step_tears_both_sides(void **state)
+{
+    (void)state;
+    static const char *const modes[] = {"paper", "tear"};
+    for (int i = 0; i < 2; i++) {
+        char mode[64];
+        struct balloon b;
+        snprintf(mode, sizeof mode, "balloons[0].fracture.mode=%s", modes[i]);
+        open_balloon(&b, 3,
+                     SETTINGS("needles[0].from=[100,1,2]", "needles[0].velocity=[-20000,0,0]",
+                              "time.step=0.01", "balloons[0].pressure=0", mode));
+        const uint32_t points = b.sim.balloons[0].point_end;
+        int cut[2] = {0};
+        steps(&b, 1);
+        for (uint32_t e = 0; e < b.sim.edge_count; e++)
+            cut[b.sim.position[b.sim.edge_point[e][0]][0] > 0] += !b.sim.edge_active[e];
+        for (uint32_t p = points; p < b.sim.balloons[0].point_end; p++)
+            cut[b.sim.position[p][0] > 0]++;
+        assert_true(cut[0] > 0 && cut[1] > 0);
+        assert_true(i == 1 || (cut[0] == 3 && cut[1] == 3));
+        close_balloon(&b);
+    }
+}
+
 /* The second one is half-way between the origin and what the first has cut: new points have not come from
  * there. */
 static void test_a_needle_meets_no_point_that_another_has_made(void **state)
@@ -348,6 +373,7 @@ int main(void)
         cmocka_unit_test(test_a_gap_is_no_wider_than_it_is),
         cmocka_unit_test(test_a_needle_tears_the_skin_where_and_when_it_arrives),
         cmocka_unit_test(test_a_needle_slits_a_membrane_where_it_meets_it),
+        cmocka_unit_test(test_a_needle_that_goes_right_through_in_a_step_tears_both_sides),
         cmocka_unit_test(test_a_needle_meets_no_point_that_another_has_made),
         cmocka_unit_test(test_skin_that_grows_into_a_needle_tears),
         cmocka_unit_test(test_bad_surroundings_are_refused_with_a_reason),
