@@ -2,6 +2,8 @@
 #include "common/array.h"
 #include "common/random.h"
 #include "common/scene_checks.h"
+#include "sim/effect_gas.h"
+#include "sim/measure.h"
 #include "sim/weights.h"
 
 #include <math.h>
@@ -139,12 +141,21 @@ void accuracy_states_close(struct accuracy_states *states)
     *states = (struct accuracy_states){0};
 }
 
-/* The pressing forces on all points over the area that they press on. */
-static double mean_pressure(const struct sim *sim, double area)
+static double area_of(const struct sim *sim, const struct sim_balloon *b)
+{
+    double area = 0;
+    for (uint32_t t = b->triangle_begin; t < b->triangle_end; t++)
+        area += sim->triangle_active[t] ? sim_area(sim, t) : 0;
+    return area;
+}
+
+/* The pressing forces on all points, by their sizes, over the area that they press on. */
+static double mean_pressure(struct sim *sim, double area)
 {
     double force = 0;
     for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
-        force += b->now->pressure * (b->point_end - b->point_begin);
+        force += b->by_area ? gas_gauge_pressure(sim, b) * area_of(sim, b)
+                            : b->now->pressure * (b->point_end - b->point_begin);
     return area > 0 ? force / area : 0;
 }
 
