@@ -95,7 +95,8 @@ static size_t left(struct sim *sim, struct sim_balloon *b, struct sim_block *lis
     list[2] = (struct sim_block){"pressure", &gas->pressure, sizeof gas->pressure};
     list[3] = (struct sim_block){"outside", &gas->outside, sizeof gas->outside};
     list[4] = (struct sim_block){"tube held", &gas->tube_held, sizeof gas->tube_held};
-    return 5;
+    list[5] = (struct sim_block){"flow held", &gas->flow_held, sizeof gas->flow_held};
+    return 6;
 }
 
 static void reorder(struct sim *sim, struct sim_balloon *b, const struct reorder *how)
@@ -183,10 +184,11 @@ static double pumped(const struct sim *sim, const struct sim_balloon *b, const s
 /* By pump and through the skin. */
 static void pump_and_leak(struct sim *sim, const struct sim_balloon *b)
 {
-    const struct gas *gas = b->gas;
+    struct gas *gas = b->gas;
     const struct gas_drive in = gas_drive(sim, b);
     const double gauge = in.pressure - gas->outside, brought = pumped(sim, b, &in);
-    const double leaked = fmin(gas->scene->leak * gas->scene->ambient, in.to_even) * gauge;
+    const double leak = gas->scene->leak * gas->scene->ambient, leaked = fmin(leak, in.to_even) * gauge;
+    gas->flow_held = leak > in.to_even && fabs(gauge) > GAS_LAMINAR * in.pressure;
     gas_stream(sim, b, brought, 1);
     gas_stream(sim, b, -leaked, 1);
     sim->scalar_rate[gas->scalar + GAS_BROUGHT] += brought - leaked;
@@ -277,10 +279,20 @@ static bool is_bound_outdated(const struct gas *gas)
              gauge > 0.5);
 }
 
+static void tell_held(struct sim *sim, struct sim_balloon *b)
+{
+    b->gas->flow_told = true;
+    sim_tell(sim, b, "gas",
+             "less flows than would: a step of this length would even the pressures out more than half-way; "
+             "shorter steps follow it");
+}
+
 static void after(struct sim *sim, struct sim_balloon *b)
 {
     struct gas *gas = b->gas;
     struct gas_memory *memory = &gas->memory;
+    if (gas->flow_held && !gas->flow_told)
+        tell_held(sim, b);
     if (gas->torn && !memory->gone && !is_collapsed(gas) && gas_torn_is_behind(sim, b))
         lose_outside(sim, b);
     if (!memory->neck_open && gas->scene->neck > 0 && sim->time >= gas->scene->neck_at) {

@@ -29,7 +29,7 @@ static double laminar(const struct pair *pair)
 {
     const double gauge = fmax(fabs(pair->from->pressure - pair->ambient),
                               fabs(pair->into->pressure - pair->ambient));
-    return fmax(0.01 * gauge, 1e-4 * pair->from->pressure);
+    return fmax(0.01 * gauge, GAS_LAMINAR * pair->from->pressure);
 }
 
 /* Of N, a second. */

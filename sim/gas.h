@@ -34,6 +34,8 @@ struct gas {
     double volume, pressure, rim_thrust, neck_thrust;
     double outside; /* of the air beside the middle of the volume */
 
+    bool flow_held; /* what streams through holes, neck and skin was held back by them (gas_let_out()) */
+    bool flow_told; /* and that was told */
     bool tube_held; /* what flows in its tube was held back by them (effect_tube.c) */
     bool tube_told; /* and that was told */
 
@@ -51,6 +53,10 @@ static inline double gas_amount(const struct sim *sim, const struct gas *gas)
 
 /* Over that at rest: what the pressure is taken for where there is less. */
 #define GAS_LEAST_VOLUME 1e-9
+
+/* Nearer than this to even pressures, of the higher one, flow is laminar: it goes by their difference, not by
+ * its root. */
+#define GAS_LAMINAR 1e-4
 
 /* What volumes are seen from. */
 void gas_origin(const struct sim *sim, const struct sim_balloon *balloon, double origin[4]);

@@ -163,10 +163,6 @@ double gas_thrust_power(const struct sim *sim, const struct sim_balloon *balloon
     return power.sum;
 }
 
-/* Nearer than this to even pressures, of the higher one, flow is laminar: it goes by their difference, not by
- * its root, as in effect_tube.c. */
-static const double laminar = 1e-4;
-
 /* Air that is drawn in pushes at nothing: its speed is lost inside. */
 void gas_let_out(struct sim *sim, struct sim_balloon *balloon)
 {
@@ -179,21 +175,24 @@ void gas_let_out(struct sim *sim, struct sim_balloon *balloon)
     const struct gas_drive in = gas_drive(sim, balloon);
     const double gauge = in.pressure - gas->outside, most = in.to_even * fabs(gauge);
     if (gauge > 0) {
-        const double turbulent = fmax(gauge, laminar * in.pressure);
+        const double turbulent = fmax(gauge, GAS_LAMINAR * in.pressure);
         const struct gas_jet jet = gas_jet(in.pressure, in.density, in.pressure - turbulent, scene->gamma,
                                            scene->discharge);
         const double rate = jet.flux * area * in.amount_of_mass,
                      share = fmin(gauge / turbulent, rate > most ? most / rate : 1);
+        gas->flow_held |= gauge == turbulent && rate > most;
         gas_stream(sim, balloon, -share * rate, in.warmth);
         sim->scalar_rate[gas->scalar + GAS_BROUGHT] -= share * rate;
         gas->rim_thrust = share * jet.thrust - gauge;
         gas->neck_thrust = share * jet.thrust * neck_area(gas);
         add_thrust(sim, balloon, sim->force, add_force);
     } else if (gauge < 0) {
-        const double turbulent = fmax(-gauge, laminar * gas->outside);
+        const double turbulent = fmax(-gauge, GAS_LAMINAR * gas->outside);
         const struct gas_jet jet = gas_jet(gas->outside, scene->density * (gas->outside / scene->ambient),
                                            gas->outside - turbulent, scene->gamma, scene->discharge);
-        const double rate = fmin(jet.flux * area * in.amount_of_mass * (-gauge / turbulent), most);
+        const double whole = jet.flux * area * in.amount_of_mass * (-gauge / turbulent),
+                     rate = fmin(whole, most);
+        gas->flow_held |= -gauge == turbulent && whole > most;
         gas_stream(sim, balloon, rate, 1);
         sim->scalar_rate[gas->scalar + GAS_BROUGHT] += rate;
     }

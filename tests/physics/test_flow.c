@@ -126,6 +126,31 @@ static void fourth_order_holds_for_gas_that_is_pumped(void **state)
         }
 }
 
+/* In a step no more flows than half of what evens the pressures out. Where that holds anything back it is
+ * told, once: out of a wide neck, into a half-empty balloon through it, through a thin skin. */
+static void what_a_step_holds_back_is_told(void **state)
+{
+    (void)state;
+    static const char *const flows[][2] = {
+        {"balloons[0].gas.neck=2000", "balloons[0].gas.fill=1.5"},
+        {"balloons[0].gas.neck=2000", "balloons[0].gas.fill=0.7"},
+        {"balloons[0].gas.leak=1e6", "balloons[0].gas.fill=1.5"},
+    };
+    for (int i = 0; i < 6; i++) {
+        struct balloon b;
+        size_t told = 0;
+        open_balloon(&b, 1,
+                     SETTINGS("balloons[0].gas.ambient=10", "balloons[0].gas.density=1e-7",
+                              "balloons[0].threshold=100", flows[i / 2][0], flows[i / 2][1],
+                              i % 2 ? "time.step=0.0005" : "time.step=0.02"));
+        steps(&b, 4);
+        for (size_t k = 0; k < b.sim.news_count; k++)
+            told += strstr(b.sim.news[k].text, "less flows than would") != NULL;
+        assert_int_equal(told, i % 2 ? 0 : 1);
+        close_balloon(&b);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -133,6 +158,7 @@ int main(void)
         cmocka_unit_test(a_pump_goes_on_at_its_rate_until_it_stops),
         cmocka_unit_test(pressures_that_are_even_ask_for_no_short_steps),
         cmocka_unit_test(what_leaves_does_not_ask_for_the_longest_step),
+        cmocka_unit_test(what_a_step_holds_back_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
