@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -38,7 +40,8 @@ enum status plot_check(const char *path, struct error *err)
     return STATUS_OK;
 }
 
-/* The script as a file in memory, ready to be read: neither side can wait for the other. -1: no memory. */
+/* The script as a file in memory, ready to be read: neither side can wait for the other. -1: errno says
+ * why. */
 static int new_script(const struct plot *plot, bool svg)
 {
     int descriptor = memfd_create("plot", MFD_CLOEXEC);
@@ -101,6 +104,15 @@ static void copy(int from, FILE *to)
         fwrite(part, 1, (size_t)got, to);
 }
 
+/* Whether a limit on the size of files, which those in memory have too, has cut this one: gnuplot does not
+ * say so. */
+static bool is_cut(int file)
+{
+    struct stat info;
+    struct rlimit most;
+    return !fstat(file, &info) && !getrlimit(RLIMIT_FSIZE, &most) && (rlim_t)info.st_size >= most.rlim_cur;
+}
+
 /* By way of a file in memory: gnuplot says nothing of a full disk. */
 static enum status draw(const char *path, int script, int picture, int messages, struct file_out *out,
                         struct error *err)
@@ -109,6 +121,10 @@ static enum status draw(const char *path, int script, int picture, int messages,
     char complaint[256];
     if (!run_gnuplot(script, picture, messages, &exit_status))
         return error_set_errno(err, path, "start gnuplot for");
+    if (is_cut(picture)) {
+        errno = EFBIG;
+        return error_set_errno(err, path, "write");
+    }
     if (!WIFEXITED(exit_status) || WEXITSTATUS(exit_status) != 0) {
         read_complaint(messages, complaint, sizeof complaint);
         return error_set(err, STATUS_RESOURCE, "%s: gnuplot failed: %s", path, complaint);
@@ -126,7 +142,8 @@ enum status plot_save(const struct plot *plot, const char *path, struct error *e
     int picture = memfd_create("picture", MFD_CLOEXEC), messages = memfd_create("gnuplot", MFD_CLOEXEC);
     enum status status = script >= 0 && picture >= 0 && messages >= 0
                              ? draw(path, script, picture, messages, out, err)
-                             : error_no_memory(err, path);
+                         : errno == EFBIG ? error_set_errno(err, path, "write")
+                                          : error_no_memory(err, path);
     if (script >= 0)
         close(script);
     if (picture >= 0)

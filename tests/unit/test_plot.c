@@ -7,6 +7,7 @@
 #include "support/slowdown.h"
 
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 static const double x[] = {0.1, 0.01, 0.001, (double)NAN}, y[] = {1, 4, -2, 16};
@@ -193,6 +194,27 @@ static void without_gnuplot_the_message_says_how_to_get_it_and_the_old_file_stay
     bytes_clear(&bytes);
 }
 
+/* Also in memory, where gnuplot's picture and its script are at first, and gnuplot says nothing of it. */
+static void a_limit_on_the_size_of_files_is_told_as_the_reason(void **state)
+{
+    (void)state;
+    struct error err = {0};
+    struct rlimit usual;
+    struct bytes bytes = {0};
+    signal(SIGXFSZ, SIG_IGN);
+    write_text("old.svg", "old");
+    getrlimit(RLIMIT_FSIZE, &usual);
+    for (rlim_t most = 100; most <= 20000; most *= 200) {
+        setrlimit(RLIMIT_FSIZE, &(struct rlimit){most, usual.rlim_max});
+        const enum status status = save_by("#!/bin/sh\nprintf %30000d 1\nexit 0\n", "old.svg", &err);
+        setrlimit(RLIMIT_FSIZE, &usual);
+        assert_refused(status, STATUS_FILE, "old.svg: cannot write: File too large", &err);
+    }
+    assert_ok(file_read("old.svg", &bytes, &err), &err);
+    assert_string_equal((const char *)bytes.data, "old");
+    bytes_clear(&bytes);
+}
+
 static void note_signal(int number)
 {
     (void)number;
@@ -232,6 +254,7 @@ int main(void)
         cmocka_unit_test(round_off_below_nothing_is_nothing),
         cmocka_unit_test(logarithmic_axes_end_near_what_is_drawn),
         cmocka_unit_test(without_gnuplot_the_message_says_how_to_get_it_and_the_old_file_stays),
+        cmocka_unit_test(a_limit_on_the_size_of_files_is_told_as_the_reason),
         cmocka_unit_test(a_signal_while_gnuplot_draws_is_no_failure),
         cmocka_unit_test(other_extensions_are_refused),
     };
