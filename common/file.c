@@ -256,8 +256,7 @@ FILE *file_out_stream(struct file_out *out)
     return out->stream;
 }
 
-/* Makes the renamed entry durable. A folder that cannot be synced (some file systems) is no failure. */
-static void sync_folder_of(const char *path)
+void file_sync_folder_of(const char *path)
 {
     char *folder = folder_of(path);
     int descriptor = folder ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
@@ -302,7 +301,7 @@ enum status file_out_commit(struct file_out *out, struct error *err)
         } else {
             free(out->temporary);
             out->temporary = NULL;
-            sync_folder_of(out->target);
+            file_sync_folder_of(out->target);
         }
     }
     file_out_abandon(out);

@@ -58,6 +58,10 @@ enum status file_out_commit(struct file_out *out, struct error *err);
 /* Throws away what was written and frees `out`. NULL is fine. */
 void file_out_abandon(struct file_out *out);
 
+/* Makes the entry of a file that was renamed durable. A folder that cannot be synced (some file systems) is
+ * no failure. */
+void file_sync_folder_of(const char *path);
+
 /* Makes the folder `path` if it is not there (its parent must be). Errors: STATUS_FILE, also where path is
  * there but is no folder. */
 enum status file_make_folder(const char *path, struct error *err);

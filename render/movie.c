@@ -330,6 +330,7 @@ static enum status put_in_place(struct movie *movie, struct error *err)
         return STATUS_FILE;
     if (rename(movie->temporary, movie->target))
         return error_set_errno(err, movie->target, "replace");
+    file_sync_folder_of(movie->target);
     free(movie->temporary);
     movie->temporary = NULL;
     return STATUS_OK;
