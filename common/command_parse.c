@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const struct argp_option argp_options[] = {
     {"help", '?', 0, 0, 0, 0}, {"usage", 0, 0, 0, 0, 0}, {"version", 'V', 0, 0, 0, 0}, {0}};
@@ -94,11 +95,22 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     return program->parser(key, argument, state);
 }
 
+static bool parsed;
+
+/* argp does not ask whether what it printed, as for --help, was written. */
+static void end_in_argp(void)
+{
+    if (!parsed && command_end())
+        _exit(1);
+}
+
 void command_parse(const struct argp *argp, int argc, char **argv, void *input)
 {
     struct argp noting = *argp;
     noting.parser = parse;
     program = argp;
     refuse_unknown(argp->options, argc, argv);
+    atexit(end_in_argp);
     argp_parse(&noting, argc, argv, 0, NULL, input);
+    parsed = true;
 }

@@ -16,3 +16,15 @@ expect 1 sh -c 'balloon-sculpt "$@" >&-' sh --depth 1 -o a.oct --info
 expect 0 balloon-sculpt a.oct --info
 expect 1 sh -c 'balloon-surface "$@" >&-' sh a.oct -o a.ply --info
 expect 0 balloon-sim a.ply --check
+# ... and what argp prints before the work is not lost in silence.
+for program in balloon-sculpt balloon-surface balloon-sim; do
+    for option in --help --usage --version; do
+        expect 1 sh -c "$program $option >&-"
+        stderr_has '^balloon-[a-z]+: cannot write the results to stdout: Bad file descriptor$'
+        expect 1 sh -c "$program $option >/dev/full"
+        stderr_has '^balloon-[a-z]+: cannot write the results to stdout: No space left on device$'
+        one_message
+        expect 0 $program $option
+        expect 2 sh -c "$program --nonsense >&-"
+    done
+done
