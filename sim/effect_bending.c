@@ -5,22 +5,11 @@
 #include "sim/bending_kernels.h"
 #include "sim/effects.h"
 #include "sim/guard.h"
+#include "sim/instructions.h"
 
 #include <stdlib.h>
 
-extern const struct bending_kernels bending_plain;
-#ifdef SIM_HAS_AVX2
-extern const struct bending_kernels bending_avx2;
-#endif
-
-static const struct bending_kernels *find_kernels(void)
-{
-#ifdef SIM_HAS_AVX2
-    if (__builtin_cpu_supports("avx2"))
-        return &bending_avx2;
-#endif
-    return &bending_plain;
-}
+extern const struct bending_kernels bending_plain, bending_avx2;
 
 static bool wanted(const struct scene_balloon *balloon)
 {
@@ -184,7 +173,7 @@ static enum status open(struct sim *sim, struct sim_balloon *b, struct error *er
     h->count = b->edge_end - b->edge_begin;
     h->damping = b->scene->bending.damping;
     h->bounded = spare;
-    h->kernels = find_kernels();
+    h->kernels = FOR_THIS_MACHINE(bending);
     unsigned char *wings = calloc(h->count, 1);
     bool room = wings && make_tables(sim, b, h);
     if (room) {

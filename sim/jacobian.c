@@ -1,24 +1,12 @@
 #include "sim/jacobian.h"
-#include "common/array.h"
+#include "sim/instructions.h"
 #include "sim/jacobian_kernels.h"
 #include "sim/membrane.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-extern const struct jacobian_kernels jacobian_plain;
-#ifdef SIM_HAS_AVX2
-extern const struct jacobian_kernels jacobian_avx2;
-#endif
-
-static const struct jacobian_kernels *find_kernels(void)
-{
-#ifdef SIM_HAS_AVX2
-    if (__builtin_cpu_supports("avx2"))
-        return &jacobian_avx2;
-#endif
-    return &jacobian_plain;
-}
+extern const struct jacobian_kernels jacobian_plain, jacobian_avx2;
 
 enum status sim_jacobian_open(struct sim *sim, struct error *err)
 {
@@ -26,7 +14,7 @@ enum status sim_jacobian_open(struct sim *sim, struct error *err)
     sim->jacobian = j;
     if (!j)
         return error_no_memory(err, "the derivatives of the forces");
-    j->kernels = find_kernels();
+    j->kernels = FOR_THIS_MACHINE(jacobian);
     j->edge = sim_table(sim, sim->edge_count, sizeof *j->edge);
     j->triangle = sim_table(sim, sim->triangle_count, sizeof *j->triangle);
     j->point = sim_table(sim, sim->point_count, sizeof *j->point);

@@ -1,18 +1,12 @@
 #include "sim/kernels.h"
 #include "sim/bending_kernels.h"
+#include "sim/instructions.h"
 
-extern const struct sim_kernels kernels_plain;
-#ifdef SIM_HAS_AVX2
-extern const struct sim_kernels kernels_avx2;
-#endif
+extern const struct sim_kernels kernels_plain, kernels_avx2;
 
 const struct sim_kernels *kernels_find(void)
 {
-#ifdef SIM_HAS_AVX2
-    if (__builtin_cpu_supports("avx2"))
-        return &kernels_avx2;
-#endif
-    return &kernels_plain;
+    return FOR_THIS_MACHINE(kernels);
 }
 
 void kernels_press(const struct sim_kernels *k, struct sim *sim, const struct sim_part *part,

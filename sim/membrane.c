@@ -3,23 +3,17 @@
 #include "sim/membrane.h"
 #include "common/threads.h"
 #include "common/vec3.h"
+#include "sim/instructions.h"
 #include "sim/measure.h"
 #include "sim/membrane_kernels.h"
 
 #include <string.h>
 
-extern const struct membrane_kernels membrane_plain;
-#ifdef SIM_HAS_AVX2
-extern const struct membrane_kernels membrane_avx2;
-#endif
+extern const struct membrane_kernels membrane_plain, membrane_avx2;
 
 const struct membrane_kernels *membrane_kernels_find(void)
 {
-#ifdef SIM_HAS_AVX2
-    if (__builtin_cpu_supports("avx2"))
-        return &membrane_avx2;
-#endif
-    return &membrane_plain;
+    return FOR_THIS_MACHINE(membrane);
 }
 
 /* F, column by column, in the plane's frame at rest. */

@@ -1,5 +1,6 @@
 #include "sim/solver.h"
 #include "common/threads.h"
+#include "sim/instructions.h"
 #include "sim/jacobian.h"
 #include "sim/solver_kernels.h"
 #include "sim/vectors.h"
@@ -10,19 +11,7 @@
 
 enum { RESIDUAL, SHADOW, DIRECTION, MAPPED_DIRECTION, MAPPED_RESIDUAL, SCRATCH };
 
-extern const struct solver_kernels solver_plain;
-#ifdef SIM_HAS_AVX2
-extern const struct solver_kernels solver_avx2;
-#endif
-
-static const struct solver_kernels *find_kernels(void)
-{
-#ifdef SIM_HAS_AVX2
-    if (__builtin_cpu_supports("avx2"))
-        return &solver_avx2;
-#endif
-    return &solver_plain;
-}
+extern const struct solver_kernels solver_plain, solver_avx2;
 
 static uint32_t lower_end(const struct sim *sim, uint32_t edge)
 {
@@ -50,7 +39,7 @@ static void find_links(const struct sim *sim, const struct solver *solver)
 
 enum status solver_open(struct sim *sim, struct solver *solver, struct error *err)
 {
-    solver->kernels = find_kernels();
+    solver->kernels = FOR_THIS_MACHINE(solver);
     solver->group_count = sim->point_count / SOLVER_GROUP + 1;
     solver->link = sim_table(sim, sim->edge_count, sizeof *solver->link);
     solver->coupling = sim_table(sim, sim->edge_count, sizeof *solver->coupling);
