@@ -23,6 +23,7 @@
     X(STATUS_RESOURCE, "a program, library or device is missing", 1)     \
     X(STATUS_USAGE, "wrong usage", 2)                                    \
     X(STATUS_DIVERGED, "the simulation diverged", 3)                     \
+    X(STATUS_HUNG_UP, "the terminal was closed (SIGHUP)", 129)           \
     X(STATUS_INTERRUPTED, "interrupted (SIGINT)", 130)                   \
     X(STATUS_TERMINATED, "told to end (SIGTERM)", 143)
 

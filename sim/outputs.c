@@ -6,7 +6,6 @@
 #include "sim/skins.h"
 
 #include <math.h>
-#include <signal.h>
 
 void outputs_find_rest(struct outputs *outputs, const struct sim *sim)
 {
@@ -114,10 +113,10 @@ enum status outputs_finish(struct outputs *outputs, struct error *err)
     if (count > 0)
         progress_begin("drawing", "the last state from all sides", "pictures", (double)count);
     for (long i = 0; i < count && !status; i++) {
-        const int caught = interrupt_caught();
+        const enum status caught = interrupt_caught();
         film_turn(outputs->film, (double)i / (double)count);
-        status = caught ? error_set(err, caught == SIGINT ? STATUS_INTERRUPTED : STATUS_TERMINATED,
-                                    "interrupted after %ld of %ld pictures of the last state", i, count)
+        status = caught ? error_set(err, caught, "interrupted after %ld of %ld pictures of the last state", i,
+                                    count)
                         : film_frame(outputs->film, err);
         progress_update((double)(i + 1));
     }
@@ -172,8 +171,7 @@ static enum status close_files(struct outputs *outputs, bool keep, struct error 
 
 enum status outputs_close(struct outputs *outputs, enum status status, struct error *err)
 {
-    const bool keep = !status || status == STATUS_DIVERGED || status == STATUS_INTERRUPTED ||
-                      status == STATUS_TERMINATED;
+    const bool keep = !status || status == STATUS_DIVERGED || status == interrupt_caught();
     struct error other = {0};
     enum status closed = film_close(outputs->film, keep, &other);
     if (keep && outputs->plot && outputs->log && draw_plot(outputs, closed ? NULL : &other) && !closed)

@@ -4,7 +4,6 @@
 #include "common/plot.h"
 #include "sim/interrupt.h"
 
-#include <signal.h>
 #include <stdlib.h>
 
 enum status price_check(const char *path, struct error *err)
@@ -57,8 +56,8 @@ static enum status measure(const struct price_kind *kind, const struct scene *sc
     progress_begin("pricing", size, "%", 100);
     enum status status = kind->measure(scene, meshes, table, err);
     progress_end();
-    if (status == STATUS_INTERRUPTED && interrupt_caught() == SIGTERM)
-        err->status = status = STATUS_TERMINATED;
+    if (status == STATUS_INTERRUPTED)
+        err->status = status = interrupt_caught();
     return status;
 }
 

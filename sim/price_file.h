@@ -32,7 +32,7 @@ enum status price_check(const char *path, struct error *err);
 /* Measures a table; prints it on stdout and into path, whose name ends in .tsv, or beside the picture of it
  * that path is (.png, .svg). What cannot be written or drawn is found out before the work. Errors:
  * STATUS_FILE; STATUS_RESOURCE where a picture is wanted and gnuplot is missing; STATUS_NO_MEMORY;
- * STATUS_INTERRUPTED and STATUS_TERMINATED after a signal; what measure says. */
+ * those of interrupt.h after a signal; what measure says. */
 enum status price_make(const struct price_kind *kind, const struct scene *scene, const struct mesh *meshes,
                        const char *path, struct error *err);
 

@@ -15,7 +15,6 @@
 
 #include <inttypes.h>
 #include <math.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <time.h>
 
@@ -75,14 +74,14 @@ static enum status keep(struct run *run, struct error *err)
 static enum status look_up(struct run *run, struct error *err)
 {
     const struct options *options = run->options;
-    const int caught = interrupt_caught();
+    const enum status caught = interrupt_caught();
     enum status status = STATUS_OK;
     if (options->checkpoint && (caught || now() - run->kept >= options->checkpoint_every))
         status = keep(run, err);
     if (status || !caught)
         return status;
-    return error_set(err, caught == SIGINT ? STATUS_INTERRUPTED : STATUS_TERMINATED,
-                     "interrupted at %g s, after %" PRIu64 " steps; %s%s", run->sim->time, run->sim->steps,
+    return error_set(err, caught, "interrupted at %g s, after %" PRIu64 " steps; %s%s", run->sim->time,
+                     run->sim->steps,
                      options->checkpoint ? "to go on: the same command with --resume "
                                          : "--checkpoint FILE would have kept the run",
                      options->checkpoint ? options->checkpoint : "");

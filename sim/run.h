@@ -8,8 +8,8 @@
 #include "sim/sim.h"
 
 /* Does what the options ask for with an open sim, and what the estimate (NULL: none) says about it; the
- * summary goes to stdout. Errors: all of the step's and the outputs', and STATUS_INTERRUPTED or
- * STATUS_TERMINATED after a signal. */
+ * summary goes to stdout. Errors: all of the step's and the outputs', and those of
+ * interrupt.h after a signal. */
 enum status run(const struct options *options, struct sim *sim, struct estimate *estimate, struct error *err);
 
 /* Whether a run could begin, and the scene be drawn: nothing is written, and no folder made. A checkpoint

@@ -7,7 +7,6 @@
 #include "sim/window_app.h"
 
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -156,11 +155,10 @@ static enum status ask_estimate(struct app *app, struct error *err)
 
 static bool interrupted(struct app *app)
 {
-    const int caught = interrupt_caught();
+    const enum status caught = interrupt_caught();
     if (!caught)
         return false;
-    error_set(&app->failed, caught == SIGINT ? STATUS_INTERRUPTED : STATUS_TERMINATED, "interrupted at %g s",
-              app->live.sim->time);
+    error_set(&app->failed, caught, "interrupted at %g s", app->live.sim->time);
     window_close(app->window);
     return true;
 }
@@ -322,7 +320,7 @@ enum status sim_window(const struct sim_window_options *options, struct sim *sim
         status = app.failed.status;
     }
     struct error other = {0};
-    if (status && status != STATUS_INTERRUPTED && status != STATUS_TERMINATED)
+    if (status && status != interrupt_caught())
         sim_log_abandon(app.log);
     else if (sim_log_close(app.log, &other) && !status) {
         *err = other;

@@ -15,7 +15,7 @@ struct sim_window_options {
 
 /* Opens a window on a sim that has not stepped, inflates at once, and returns when it has been closed.
  * `estimate` (NULL: none) is asked about each frame until the user changes anything. Errors: STATUS_RESOURCE
- * without a display; those of the log; STATUS_INTERRUPTED, STATUS_TERMINATED after a signal. A step that
+ * without a display; those of the log; those of interrupt.h after a signal. A step that
  * diverges is told of in the window. */
 enum status sim_window(const struct sim_window_options *options, struct sim *sim, struct estimate *estimate,
                        struct error *err);

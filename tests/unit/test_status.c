@@ -68,7 +68,8 @@ static void exit_codes_are_those_that_are_promised(void **state)
     assert_int_equal(status_exit_code(STATUS_RESOURCE), 1);
     assert_int_equal(status_exit_code(STATUS_USAGE), 2);
     assert_int_equal(status_exit_code(STATUS_DIVERGED), 3);
-    assert_int_equal(status_exit_code(STATUS_INTERRUPTED), 130); /* as a shell says it: 128 + the signal */
+    assert_int_equal(status_exit_code(STATUS_HUNG_UP), 129); /* as a shell says it: 128 + the signal */
+    assert_int_equal(status_exit_code(STATUS_INTERRUPTED), 130);
     assert_int_equal(status_exit_code(STATUS_TERMINATED), 143);
 }
 

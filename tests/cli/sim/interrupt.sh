@@ -1,4 +1,4 @@
-# Ctrl-C and kill end a run between two steps: it keeps log and checkpoint, says how to go on, and ends with 128 + the signal.
+# Ctrl-C, kill and a terminal that is closed end a run between two steps: it keeps log and checkpoint, says how to go on, and ends with 128 + the signal.
 ply m.ply "$tetra_points" "$tetra_triangles"
 long='--set time.end=1e6 --set balloons[0].pressure=0 --set view.rate=0.001 --threads 1'
 
@@ -11,13 +11,14 @@ stopped()
     rm -f run.ck
     command_line="balloon-sim $* (SIG$signal)"
     # a shell makes background jobs deaf to SIGINT: env undoes that
-    env --default-signal=INT balloon-sim "$@" --checkpoint run.ck --checkpoint-every 0 >.stdout 2>.stderr &
+    env --default-signal=INT,HUP balloon-sim "$@" --checkpoint run.ck --checkpoint-every 0 >.stdout 2>.stderr &
     job=$!
     for wait in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
         [ -e run.ck ] && break
         sleep 0.25
     done
     kill -s "$signal" $job
+    [ "$signal" != HUP ] || kill -s HUP $job # of a terminal that is closed one hears twice
     got=0
     wait $job || got=$?
     [ "$got" = "$wanted_exit" ] || fail "exit $got, wanted $wanted_exit"
@@ -28,6 +29,8 @@ stopped()
 stopped INT 130 m.ply $long --log log.tsv
 a_file run.ck
 a_file log.tsv
+stopped HUP 129 m.ply $long
+a_file run.ck
 stopped TERM 143 m.ply $long
 time=$(sed -n 's/.*interrupted at \([^ ]*\) s.*/\1/p' .stderr)
 end=$(awk "BEGIN { print $time + 1 }")
@@ -65,3 +68,19 @@ command_line="balloon-sim --turntable=100000 (SIGINT)"
 [ "$got" = 130 ] || fail "exit $got, wanted 130"
 stderr_has '^balloon-sim: interrupted after [0-9]+ of 100000 pictures of the last state$'
 a_file round/frame_0002.png
+
+# What nohup starts goes on when the terminal is closed.
+rm -f run.ck
+env --ignore-signal=HUP balloon-sim m.ply $long --checkpoint run.ck --checkpoint-every 0 >.stdout 2>.stderr &
+job=$!
+for wait in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
+    [ -e run.ck ] && break
+    sleep 0.25
+done
+kill -s HUP $job
+sleep 0.1
+kill -s TERM $job
+got=0
+wait $job || got=$?
+command_line="balloon-sim (SIGHUP ignored, SIGTERM)"
+[ "$got" = 143 ] || fail "exit $got, wanted 143"
