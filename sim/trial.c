@@ -57,7 +57,7 @@ static void limit(struct sim *sim, const struct integrator *method, uint64_t ite
 }
 
 struct trial_result trial_run(struct sim *sim, const struct integrator *method, void *own, uint32_t parts,
-                              uint32_t steps, int rows)
+                              uint32_t steps, double most, int rows)
 {
     void *const before = sim->method;
     struct trial_result result = {.error = INFINITY};
@@ -66,20 +66,20 @@ struct trial_result trial_run(struct sim *sim, const struct integrator *method, 
     sim->changed = true;
     const uint64_t evaluations = sim->evaluations, iterations = iterations_of(sim, method),
                    in_parts = in_parts_of(sim, method);
-    const uint64_t most = (uint64_t)(TRIAL_WORK_MAX / iteration_work) * steps;
-    limit(sim, method, most);
+    const uint64_t iterations_most = (uint64_t)(most / iteration_work) * steps;
+    limit(sim, method, iterations_most);
     bool good = advance_by(sim, method, parts, steps);
     const double each = method->flags & INTEGRATOR_IMPLICIT ? derivatives_work : 1;
     result.work = move_work * parts + (each * (double)(sim->evaluations - evaluations) +
                                        iteration_work * (double)(iterations_of(sim, method) - iterations)) /
                                           steps;
-    result.too_dear = !good && result.work > TRIAL_WORK_MAX;
+    result.too_dear = !good && result.work > most;
     result.in_parts = in_parts_of(sim, method) > in_parts;
     good &= !result.in_parts;
     if (good) {
         vector_copy(sim, sim->scratch[rows + COARSE], sim->position);
         put_back(sim, rows);
-        limit(sim, method, 2 * most);
+        limit(sim, method, 2 * iterations_most);
         good = advance_by(sim, method, 2 * parts, steps);
     }
     if (good) {

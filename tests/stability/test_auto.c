@@ -102,6 +102,63 @@ static void it_chooses_again_when_the_schedule_stiffens_the_springs(void **state
     close_balloon(&b);
 }
 
+static void go_to_a_tenth_of_a_second(struct balloon *b)
+{
+    while (b->sim.time < 0.1)
+        steps(b, 1);
+}
+
+/* So stiff that a motion goes astray within a step, however finely that is split: to find out took 2.9
+ * million evaluations, seven times as many as it does. */
+static void a_motion_that_no_split_resolves_is_given_up_soon(void **state)
+{
+    (void)state;
+    struct balloon b;
+    char text[256];
+    open_balloon(&b, 1, AUTO("schedule[0].at=0.1", "schedule[0].spring_factor=1e6"));
+    go_to_a_tenth_of_a_second(&b);
+    disturb(&b, 8);
+    const uint64_t before = b.sim.evaluations;
+    steps(&b, 1);
+    assert_true(b.sim.evaluations - before < 1000000);
+    assert_true(auto_describe(&b.sim, &(uint64_t){0}, text, sizeof text));
+    assert_non_null(strstr(text, "no method keeps time.tolerance"));
+    assert_int_equal(b.sim.acting->evaluations, 1); /* the cheapest, since none is nearer than another */
+    close_balloon(&b);
+}
+
+/* No error of the first two methods falls, in eight times the parts: that of others does, which keep the
+ * tolerance in the end. */
+static void a_motion_that_some_method_resolves_is_not_given_up(void **state)
+{
+    (void)state;
+    struct balloon b;
+    char text[256];
+    open_balloon(&b, 2, AUTO("schedule[0].at=0.1", "schedule[0].spring_factor=1e4"));
+    go_to_a_tenth_of_a_second(&b);
+    disturb(&b, 8);
+    steps(&b, 1);
+    assert_true(auto_describe(&b.sim, &(uint64_t){0}, text, sizeof text));
+    assert_null(strstr(text, "no method keeps time.tolerance"));
+    close_balloon(&b);
+}
+
+/* The least that an implicit method may take is known beforehand, and not the most: bdf2's trial saw 6000
+ * products through before the next method had its own, which took far fewer, and was chosen. */
+static void a_trial_that_gets_dear_waits_for_the_others(void **state)
+{
+    (void)state;
+    struct balloon b;
+    open_balloon(&b, 2,
+                 AUTO("balloons[0].spring=2e3", "schedule[0].at=0.1", "schedule[0].spring_factor=1e6"));
+    go_to_a_tenth_of_a_second(&b);
+    const uint64_t before = b.sim.products;
+    steps(&b, 1);
+    assert_true(b.sim.products - before < 3000);
+    assert_string_equal(b.sim.acting->name, "backward-euler");
+    close_balloon(&b);
+}
+
 /* Work is counted, not timed: the choice cannot depend on who works, nor on what else the machine does. */
 static void the_choice_is_the_same_for_any_number_of_threads(void **state)
 {
@@ -307,6 +364,9 @@ int main(void)
         cmocka_unit_test(what_is_taken_in_parts_tells_no_error),
         cmocka_unit_test(it_says_what_it_has_chosen_and_why),
         cmocka_unit_test(it_chooses_again_when_the_schedule_stiffens_the_springs),
+        cmocka_unit_test(a_motion_that_no_split_resolves_is_given_up_soon),
+        cmocka_unit_test(a_motion_that_some_method_resolves_is_not_given_up),
+        cmocka_unit_test(a_trial_that_gets_dear_waits_for_the_others),
         cmocka_unit_test(the_choice_is_the_same_for_any_number_of_threads),
         cmocka_unit_test(who_is_asked_in_a_trial_is_told_so),
         cmocka_unit_test(a_choice_that_is_ended_half_way_has_not_begun),
