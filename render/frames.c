@@ -168,6 +168,8 @@ static enum status check_outputs(const struct frames *frames, struct error *err)
     enum status status = STATUS_OK;
     if (frames->movie_path)
         status = movie_check(frames->movie_path, err);
+    if (!status && frames->movie_path && frames->options.width > 0)
+        status = movie_check_size(frames->movie_path, frames->options.width, frames->options.height, err);
     if (!status && frames->sheet_path)
         status = file_out_check(frames->sheet_path, err);
     if (!status && frames->folder)

@@ -24,9 +24,10 @@ struct frames_options {
     const char *counted_one; /* the same of a single one, as "edge broken" */
     /* "left" or "right": every name ends in -left or -right, before its extension; or NULL. */
     const char *eye;
-    size_t first; /* number of the first PNG */
-    double rate;  /* pictures a second in the movie; 0: 30 */
-    int workers;  /* threads that encode PNGs; 0: one for each processor */
+    size_t first;      /* number of the first PNG */
+    double rate;       /* pictures a second in the movie; 0: 30 */
+    int width, height; /* of the pictures: what no movie can have is refused at once; 0: not known yet */
+    int workers;       /* threads that encode PNGs; 0: one for each processor */
     /* [text_count] for every PNG, borrowed until frames_close(); "Time" is added. */
     const struct image_text *texts;
     size_t text_count;
@@ -35,8 +36,9 @@ struct frames_options {
 struct frames;
 
 /* Begins. frame_files.h tells what an earlier run has left in the folder. Errors: STATUS_FILE (the folder
- * cannot be made, is a file or cannot be written), STATUS_USAGE (the movie's extension), STATUS_RESOURCE
- * (ffmpeg is not installed or lacks an encoder), STATUS_NO_MEMORY. Nothing is left behind. */
+ * cannot be made, is a file or cannot be written), STATUS_USAGE (the movie's extension), STATUS_RANGE (its
+ * size), STATUS_RESOURCE (ffmpeg is not installed or lacks an encoder), STATUS_NO_MEMORY. Nothing is left
+ * behind. */
 enum status frames_open(const struct frames_options *options, struct frames **frames, struct error *err);
 
 /* So much of what is counted has happened in the pictures that follow: the sheet shows most of its moments

@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <math.h>
 #include <signal.h>
 #include <spawn.h>
@@ -195,6 +196,19 @@ enum status movie_check(const char *path, struct error *err)
     return STATUS_OK;
 }
 
+enum status movie_check_size(const char *path, int width, int height, struct error *err)
+{
+    /* libavutil/imgutils.c, av_image_check_size2(): room for 8 bytes a pixel and a margin */
+    const int most = INT_MAX / (8 * (width + 128)) - 128;
+    if (width < 2 || height < 2)
+        return error_set(err, STATUS_RANGE, "%s: a movie needs pictures of at least 2 x 2, not %d x %d", path,
+                         width, height);
+    if (height > most)
+        return error_set(err, STATUS_RANGE, "%s: ffmpeg takes pictures of %d x %d at most, not %d x %d", path,
+                         width, most, width, height);
+    return STATUS_OK;
+}
+
 static enum status start_ffmpeg(struct movie *movie, double rate, struct error *err)
 {
     char size[32], rate_text[32];
@@ -224,10 +238,9 @@ static enum status start_ffmpeg(struct movie *movie, double rate, struct error *
 enum status movie_open(const char *path, int width, int height, double rate, struct movie **result,
                        struct error *err)
 {
-    enum status status = STATUS_OK;
-    if (width < 2 || height < 2)
-        return error_set(err, STATUS_RANGE, "%s: a movie needs pictures of at least 2 x 2, not %d x %d", path,
-                         width, height);
+    enum status status = movie_check_size(path, width, height, err);
+    if (status)
+        return status;
     if (!(rate > 0) || !(rate <= 1000))
         return error_set(err, STATUS_RANGE, "%s: %g pictures a second are not possible; 0 to 1000 are", path,
                          rate);

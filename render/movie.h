@@ -23,9 +23,13 @@ struct movie;
  * installed or lacks the encoder, STATUS_FILE where path cannot be written, as in file_out_check(). */
 enum status movie_check(const char *path, struct error *err);
 
+/* Errors: STATUS_RANGE for pictures, of sides up to IMAGE_SIDE_MAX, that are smaller than a movie's
+ * or larger than ffmpeg's can be. */
+enum status movie_check_size(const char *path, int width, int height, struct error *err);
+
 /* Starts ffmpeg for pictures of this size, `rate` of them a second (above 0, at most 1000). Odd sizes
  * lose their last column or row, since movies halve their colours' resolution (.gif does not). The path
- * is one that movie_check() took. Errors: STATUS_RANGE for a side below 2 or a rate out of range;
+ * is one that movie_check() took. Errors: STATUS_RANGE as above, and for a rate out of range;
  * STATUS_FILE, STATUS_NO_MEMORY. */
 enum status movie_open(const char *path, int width, int height, double rate, struct movie **movie,
                        struct error *err);

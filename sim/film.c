@@ -50,6 +50,8 @@ static enum status open_frames(struct film *film, const struct scene *scene,
 {
     const bool separate = scene->view.stereo == SCENE_SEPARATE;
     struct frames_options own = *options;
+    own.width = film->view.width;
+    own.height = film->view.height;
     own.texts = film->texts;
     own.counted = "edges broken";
     own.counted_one = "edge broken";

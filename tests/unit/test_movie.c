@@ -14,6 +14,10 @@ static void movies_have_a_known_extension_and_are_no_folders(void **state)
     assert_ok(movie_check("M.GIF", &err), &err);
     struct movie *movie;
     assert_refused(movie_open("m.mp4", 1, 10, 30, &movie, &err), STATUS_RANGE, "not 1 x 10", &err);
+    assert_refused(movie_open("m.mp4", 16384, 16129, 30, &movie, &err), STATUS_RANGE,
+                   "m.mp4: ffmpeg takes pictures of 16384 x 16128 at most, not 16384 x 16129", &err);
+    assert_ok(movie_check_size("m.mp4", 16384, 16128, &err), &err);
+    assert_ok(movie_check_size("m.mp4", 16128, 16384, &err), &err);
     assert_refused(movie_open("m.mp4", 10, 10, 0, &movie, &err), STATUS_RANGE, "pictures a second", &err);
     assert_refused(movie_open("no/m.mp4", 10, 10, 9, &movie, &err), STATUS_FILE, "no/m.mp4: cannot create",
                    &err);

@@ -6,6 +6,7 @@ if command -v ffmpeg >/dev/null; then
     a_file m.mp4
     expect 0 ffprobe -v error -count_frames -show_entries stream=width,height,nb_read_frames -of csv=p=0 m.mp4
     stdout_has '^64,48,21$'
+    refused 1 'm.mp4: ffmpeg takes pictures of 16384 x 16128 at most' balloon-sim m.ply --set view.size=[16384,16384] --movie m.mp4 --check
 fi
 refused 2 'avi.*mp4' balloon-sim m.ply $short --movie m.avi
 no_file m.avi
