@@ -6,7 +6,11 @@
 #include <math.h>
 
 /* Cheap ones first: what cannot beat the best so far is not tried. The last two, which solve equations and
- * share what they keep, are open only where the others would have to split steps in more than AUTO_STIFF. */
+ * share what they keep, are open only where the others would have to split steps in more than AUTO_STIFF.
+ * rk-adaptive is none: steps no longer than the scene's take six forces each at the least, and at tolerances
+ * of 1e-5 to 1e-8 the scenes in data/scenes took it from 0.7 (rubber, creep) to 5 times (stiff) as long as
+ * what is chosen here. Whoever wants its errors, a tenth to a thousandth at the same tolerance but where
+ * springs slip, names it: also those of events within steps, which no trial shows. */
 const struct integrator *const auto_candidates[AUTO_CANDIDATES] = {
     &integrator_symplectic_euler, &integrator_verlet, &integrator_rk4, &integrator_rkn4,
     &integrator_backward_euler,   &integrator_bdf2};
