@@ -31,7 +31,7 @@ void app_say_unless_ok(struct app *app, enum status status, const struct error *
 
 void app_show_title(struct app *app)
 {
-    char title[1100];
+    char title[PATH_MAX + 32];
     snprintf(title, sizeof title, "%s%s - balloon-sculpt", app->open ? app->session.path : app->options->path,
              app->session.unsaved ? " *" : "");
     window_title(app->window, title);
@@ -301,7 +301,7 @@ static enum status open_window(struct app *app, struct error *err)
                                                 .close = wants_to_close};
     const char *path = app->options->path;
     bool left = false;
-    char title[1100];
+    char title[PATH_MAX + 32];
     snprintf(title, sizeof title, "%s - balloon-sculpt", path);
     enum status status = journal_is_left(path, &left, err);
     struct error reason = {0};

@@ -49,19 +49,26 @@ static void describe_tool(const struct app *app, char *text, size_t size)
              *mirror ? "  mirror " : "", mirror);
 }
 
+/* What is shown of a name. */
+static const char *end_of(const char *name)
+{
+    const size_t length = strlen(name);
+    return length > 1000 ? name + length - 1000 : name;
+}
+
 static void describe_question(const struct app *app, char *text, size_t size)
 {
     static const char *const names[] = {
-        [NAME_SAVE] = "Save as: %s_\nenter  save     esc  do not",
-        [NAME_OPEN] = "Open or import (.oct .vox .stl .ply .obj): %s_\nenter  open     esc  do not",
-        [NAME_EXPORT] = "Export (.vox .ply .chips): %s_\nenter  export     esc  do not",
+        [NAME_SAVE] = "Save as: %.1000s_\nenter  save     esc  do not",
+        [NAME_OPEN] = "Open or import (.oct .vox .stl .ply .obj): %.1000s_\nenter  open     esc  do not",
+        [NAME_EXPORT] = "Export (.vox .ply .chips): %.1000s_\nenter  export     esc  do not",
     };
     text[0] = '\0';
     switch (app->question) {
     case ASK_RECOVER:
         snprintf(text, size,
-                 "%s: work that was not saved was found.\nr  take it up     n  forget it     esc  %s",
-                 app->opening, app->open ? "do not open it" : "quit");
+                 "%.1000s: work that was not saved was found.\nr  take it up     n  forget it     esc  %s",
+                 end_of(app->opening), app->open ? "do not open it" : "quit");
         break;
     case ASK_UNSAVED:
         snprintf(text, size,
@@ -70,12 +77,12 @@ static void describe_question(const struct app *app, char *text, size_t size)
         break;
     case ASK_HOLLOW:
         snprintf(text, size,
-                 "%s is hollow: %llu cells within are empty.\nf  fill them     n  leave them     esc  "
+                 "%.1000s is hollow: %llu cells within are empty.\nf  fill them     n  leave them     esc  "
                  "do not import it",
-                 app->opening, (unsigned long long)app->hollow);
+                 end_of(app->opening), (unsigned long long)app->hollow);
         break;
     case ASK_NAME:
-        snprintf(text, size, names[app->naming], app->answer);
+        snprintf(text, size, names[app->naming], end_of(app->answer));
         if (app->proposed)
             strncat(text, "     backspace  change this name", size - strlen(text) - 1);
         break;

@@ -120,3 +120,15 @@ press ctrl+q
 press d
 ends 0
 [ ! -e "$journal" ] || fail "the journal stays"
+
+# a name of more than a thousand letters is proposed whole: what is cut is another file's
+long=$(printf './%.0s' $(seq 600))a.oct
+open_sculptor "$long"
+press 1 g
+click 480 360
+wait_title "$long *"
+press ctrl+shift+s
+press Return
+wait_title "$long"
+press ctrl+q
+ends 0
