@@ -20,7 +20,8 @@
     X(integrator, CHOICE, 0, 0, "\"auto\"", "", 0, "method that moves the points", "paper 3.1")           \
     X(tolerance, NUMBER, 1e-12, 0.1, "1e-5", "radii", 0,                                                  \
       "error in places that a method which chooses its steps, or what auto chooses, allows in each; not " \
-      "what ground, obstacles and contact add by turning skin back at their ends",                        \
+      "what ground, obstacles and contact add by turning skin back at their ends, nor what a pump that "  \
+      "ends within a step adds to what auto chooses",                                                     \
       "")                                                                                                 \
     X(guard, CHOICE, 0, 0, "\"substep\"", "", 0,                                                          \
       "steps that are not surely stable: split them, refuse them, or let them go and say so", "")
