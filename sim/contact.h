@@ -72,9 +72,10 @@ struct contact {
     double stray, used;           /* at its end */
     uint64_t listed;              /* memory.found of the list at hand; another number: to be found again */
 
-    uint32_t shared_broken; /* sim->broken when leaves and stars were found; UINT32_MAX: not yet */
+    /* sim->broken when leaves and stars were found, and when all pairs were; UINT32_MAX: not yet. */
+    uint32_t shared_broken, listed_broken;
     uint32_t *star_end,
-        *star; /* [point_count], [3 triangle_count] the triangles around p end at star_end[p]; owned */
+        *star; /* [point_count], [3 triangle_count] the active triangles around p end at star_end[p]; owned */
 
     /* Lines and ways as the inner loops take them (contact_kernels.h): lines from `origin`, ways from where
      * the first point's begins. */

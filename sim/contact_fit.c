@@ -9,7 +9,7 @@ static struct contact_box box_of(const struct contact_ways *ways, uint32_t point
     return contact_box_point(ways->from[point], ways->to[point], (double)ways->reach[point] + ways->room / 2);
 }
 
-/* A patch with a cut in it can cross itself there, whichever way it looks. */
+/* A patch with a cut or a hole in it can cross itself there, whichever way it looks. */
 static bool is_cut(const struct sim *sim, uint32_t t)
 {
     const struct sim_balloon *b = sim_balloon_of(sim, t);
@@ -22,7 +22,7 @@ static bool is_cut(const struct sim *sim, uint32_t t)
 static bool is_whole(const struct sim *sim, uint32_t t)
 {
     const uint32_t *e = sim->triangle_edge[t];
-    if (is_cut(sim, t))
+    if (!sim->triangle_active[t] || is_cut(sim, t))
         return false;
     return sim->edge_active[e[0]] && sim->edge_active[e[1]] && sim->edge_active[e[2]];
 }
@@ -52,11 +52,9 @@ static void fit_leaf(const struct contact_tree *tree, const struct sim *sim, str
 {
     for (uint32_t i = node->begin; i < node->end; i++) {
         const uint32_t t = tree->order[i];
-        if (!sim->triangle_active[t])
-            continue;
-        for (int k = 0; k < 3; k++)
-            contact_box_join(&node->box, &tree->point[sim->triangle_point[t][k]]);
         node->sides &= is_whole(sim, t) ? tree->side[t] : 0;
+        for (int k = 0; k < 3 && sim->triangle_active[t]; k++)
+            contact_box_join(&node->box, &tree->point[sim->triangle_point[t][k]]);
     }
 }
 

@@ -338,7 +338,7 @@ enum status contact_list_follow(struct sim *sim, struct error *err)
     struct contact *c = sim->contact;
     if (sim->steps - c->memory.made_in >= c->memory.horizon || c->memory.torn != torn_points(sim))
         return contact_list_make(sim, err);
-    if (c->listed != c->memory.found) {
+    if (c->listed != c->memory.found || c->listed_broken != sim->broken) { /* skin may have vanished */
         enum status status = contact_pairs_find(sim, err);
         if (status)
             return status;

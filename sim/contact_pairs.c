@@ -12,13 +12,14 @@ void contact_gather(double (*x)[4], const uint32_t points[4], double places[4][3
         memcpy(places[i], x[points[i]], 3 * sizeof(double));
 }
 
-/* The triangles around each point, by counting: those of p end where those of p + 1 begin. */
+/* The triangles around each point that have not vanished, by counting: those of p end where those of p + 1
+ * begin. */
 static void find_stars(const struct sim *sim, struct contact *c)
 {
     memset(c->star_end, 0, sim->point_count * sizeof *c->star_end);
     for (uint32_t t = 0; t < sim->triangle_count; t++)
         for (int k = 0; k < 3; k++)
-            c->star_end[sim->triangle_point[t][k]]++;
+            c->star_end[sim->triangle_point[t][k]] += sim->triangle_active[t];
     uint32_t end = 0;
     for (uint32_t p = 0; p < sim->point_count; p++) {
         const uint32_t count = c->star_end[p];
@@ -26,7 +27,7 @@ static void find_stars(const struct sim *sim, struct contact *c)
         end += count;
     }
     for (uint32_t t = 0; t < sim->triangle_count; t++)
-        for (int k = 0; k < 3; k++)
+        for (int k = 0; k < 3 && sim->triangle_active[t]; k++)
             c->star[c->star_end[sim->triangle_point[t][k]]++] = t;
 }
 
@@ -220,6 +221,7 @@ static uint32_t find_all(struct sim *sim)
     const struct contact_ways ways = contact_ways_of(c);
     struct contact_finder finder = contact_finder_begin(sim);
     c->pair_count = c->indexed = c->linked = 0;
+    c->listed_broken = sim->broken;
     memcpy(c->origin, c->from[0], sizeof c->origin);
     struct contact_rounding lines = contact_round_lines(c);
     contact_round(sim, &lines);

@@ -265,6 +265,12 @@ static void test_no_push_takes_a_point_further_than_the_sweep_knows(void **state
     close_scene(&s);
 }
 
+/* Thrown at each other, so that springs let go one by one, and triangles vanish with them. */
+#define BREAKING                                                                                      \
+    SETTINGS("contact.thickness=0.5", "balloons[1].mesh=sphere", "balloons[0].position=[-60,0,0]",    \
+             "balloons[1].position=[60,3,2]", "balloons[0].threshold=1.25", "balloons[0].pressure=0", \
+             "balloons[1].threshold=1.25", "balloons[1].pressure=0", "time.step=0.0125")
+
 /* What pushes make too long lets go in the same step. */
 static void test_no_step_of_skins_that_break_on_each_other_ends_with_an_overlong_edge(void **state)
 {
@@ -272,11 +278,7 @@ static void test_no_step_of_skins_that_break_on_each_other_ends_with_an_overlong
     struct scene_of_two s;
     struct error err = {0};
     int sure = 0, broke = 0;
-    open_scene(&s, 3, 1,
-               SETTINGS("contact.thickness=0.5", "balloons[1].mesh=sphere", "balloons[0].position=[-60,0,0]",
-                        "balloons[1].position=[60,3,2]", "balloons[0].threshold=1.25",
-                        "balloons[0].pressure=0", "balloons[1].threshold=1.25", "balloons[1].pressure=0",
-                        "time.step=0.0125"));
+    open_scene(&s, 3, 1, BREAKING);
     throw(&s.sim, 30);
     for (int i = 0; i < 200; i++) {
         const uint32_t broken = s.sim.broken;
@@ -293,6 +295,53 @@ static void test_no_step_of_skins_that_break_on_each_other_ends_with_an_overlong
     close_scene(&s);
 }
 
+/* Pairs with a triangle that is no longer there. */
+static size_t count_vanished(const struct sim *sim, const unsigned char *active)
+{
+    const struct contact *c = sim->contact;
+    size_t count = 0;
+    for (uint32_t t = 0; t < sim->triangle_count; t++)
+        for (uint32_t i = 0; !active[t] && i < c->pair_count; i++)
+            count += c->pairs[i].kind == CCD_POINT_TRIANGLE && isfinite(c->pairs[i].distance) &&
+                     memcmp(&c->pairs[i].point[1], sim->triangle_point[t], 3 * sizeof(uint32_t)) == 0;
+    return count;
+}
+
+/* Patches with a hole that are taken not to cross themselves, since all that is left of them looks to one
+ * side. */
+static size_t count_holes_passed_over(const struct contact_tree *tree, const unsigned char *active)
+{
+    size_t count = 0;
+    for (const struct contact_node *n = tree->nodes; n < tree->nodes + tree->node_count; n++)
+        for (uint32_t i = n->begin; i < n->end; i++)
+            count += !active[tree->order[i]] && n->sides != 0;
+    return count;
+}
+
+static void test_skin_that_has_vanished_stands_in_nobodys_way(void **state)
+{
+    (void)state;
+    struct scene_of_two s;
+    struct error err = {0};
+    uint32_t vanished = 0;
+    uint64_t mended = 0;
+    open_scene(&s, 3, 1, BREAKING);
+    throw(&s.sim, 30);
+    unsigned char *active = malloc(s.sim.triangle_count);
+    for (int i = 0; i < 200; i++) {
+        memcpy(active, s.sim.triangle_active, s.sim.triangle_count);
+        assert_ok(sim_step(&s.sim, &err), &err);
+        assert_int_equal(count_vanished(&s.sim, active), 0);
+        assert_int_equal(count_holes_passed_over(&s.sim.contact->tree, active), 0);
+        mended += s.sim.contact->memory.again > 0;
+    }
+    for (uint32_t t = 0; t < s.sim.triangle_count; t++)
+        vanished += !active[t];
+    assert_true(vanished > 10 && mended > 10);
+    free(active);
+    close_scene(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -302,6 +351,7 @@ int main(void)
         cmocka_unit_test(test_two_balloons_thrown_together_keep_apart_and_keep_their_momentum),
         cmocka_unit_test(test_no_push_takes_a_point_further_than_the_sweep_knows),
         cmocka_unit_test(test_no_step_of_skins_that_break_on_each_other_ends_with_an_overlong_edge),
+        cmocka_unit_test(test_skin_that_has_vanished_stands_in_nobodys_way),
         cmocka_unit_test(test_contact_does_not_move_what_pins_hold),
         cmocka_unit_test(test_a_skin_that_is_cut_keeps_apart_at_its_cuts_too),
         cmocka_unit_test(test_the_pieces_of_a_balloon_that_bursts_keep_apart),
