@@ -3,6 +3,7 @@
 #include "common/vec3.h"
 #include "sim/contact.h"
 #include "sim/effects.h"
+#include "sim/instructions.h"
 #include "sim/ledger.h"
 #include "sim/reorder.h"
 
@@ -14,19 +15,7 @@ static bool wanted(const struct scene *scene)
     return scene->contact.on;
 }
 
-extern const struct contact_kernels contact_plain;
-#ifdef SIM_HAS_AVX2
-extern const struct contact_kernels contact_avx2;
-#endif
-
-static const struct contact_kernels *find_kernels(void)
-{
-#ifdef SIM_HAS_AVX2
-    if (__builtin_cpu_supports("avx2"))
-        return &contact_avx2;
-#endif
-    return &contact_plain;
-}
+extern const struct contact_kernels contact_plain, contact_avx2;
 
 static double least_edge(const struct sim *sim)
 {
@@ -202,7 +191,7 @@ static enum status open(struct sim *sim, struct sim_balloon *balloon, struct err
     const struct scene_contact *given = &sim->scene->contact;
     c->thickness = given->thickness > 0 ? given->thickness : least_edge(sim) / 10;
     c->friction = given->friction;
-    c->tree.kernels = find_kernels();
+    c->tree.kernels = FOR_THIS_MACHINE(contact);
     c->shared_broken = UINT32_MAX;
     if (!allocate(sim, c))
         return error_no_memory(err, "contact");
