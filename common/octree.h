@@ -152,6 +152,7 @@ struct octree_info {
     uint64_t cells;                    /* finest cells that are not empty */
     uint64_t exposed_faces; /* faces of those cells that border on an empty cell or on the outside */
     int low[3], high[3];    /* bounds of the cells that are not empty; high < low when there is none */
+    int extent;             /* the longest side of those bounds, in cells; 0: there is none */
     int smallest_side;      /* side of the smallest leaf that is not empty, in cells; 0: there is none */
     size_t bytes;           /* of memory */
 };

@@ -153,6 +153,10 @@ struct octree_info octree_measure(const struct octree *tree)
     info.nodes = info.leaves + (tree->block_count - tree->free_count);
     octree_visit_all(tree, measure_leaf, &info);
     octree_visit_faces(tree, measure_face, &info);
+    for (int k = 0; k < 3; k++) {
+        const int side = info.high[k] - info.low[k] + 1;
+        info.extent = side > info.extent ? side : info.extent;
+    }
     info.bytes = sizeof *tree + 8 * sizeof *tree->blocks * tree->block_capacity;
     return info;
 }

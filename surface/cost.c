@@ -195,17 +195,6 @@ static double fit_order(const struct cost_table *table, enum cost_dial dial)
     return n > 1 && spread > 0 ? (n * xy - x * y) / spread : (double)NAN;
 }
 
-static double extent_of(const struct octree *tree)
-{
-    const struct octree_info info = octree_measure(tree);
-    int extent = 0;
-    for (int axis = 0; axis < 3; axis++) {
-        int length = info.high[axis] - info.low[axis] + 1;
-        extent = length > extent ? length : extent;
-    }
-    return ldexp(extent, -(int)tree->depth);
-}
-
 /* The options' own mesh says which cube size they mean; the exact field's what there is to compare with. */
 static enum status begin(struct walk *w, const struct surface_options *options, struct error *err)
 {
@@ -240,7 +229,7 @@ enum status surface_cost(const struct octree *tree, const struct surface_options
                          struct cost_table *table, struct error *err)
 {
     struct walk w = {.tree = tree, .table = table};
-    *table = (struct cost_table){.extent = extent_of(tree)};
+    *table = (struct cost_table){.extent = ldexp(octree_measure(tree).extent, -(int)tree->depth)};
     if (begin(&w, options, err) || walk_cubes(&w, err))
         return err->status;
     extrapolate(&w);

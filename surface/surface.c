@@ -122,12 +122,7 @@ static enum status count_triangles(const struct making *making, double cube, siz
 
 static double default_cube(const struct making *making)
 {
-    int extent = 0;
-    for (int axis = 0; axis < 3; axis++) {
-        int length = making->info.high[axis] - making->info.low[axis] + 1;
-        extent = length > extent ? length : extent;
-    }
-    return fmin(1.0 / 3, extent / 24.0);
+    return fmin(1.0 / 3, making->info.extent / 24.0);
 }
 
 /* The first of sigma / 2, / 4, ... with which the field reaches the threshold somewhere; 0: none does. */
