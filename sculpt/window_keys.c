@@ -109,15 +109,12 @@ static void toggle_balloon(struct app *app)
 static void toggle_inflation(struct app *app)
 {
     struct error err = {0};
-    if (!app->preview)
-        app_say(app, "");
     if (app->preview && app->balloon.inflated) {
         app_remake_balloon(app); /* back to rest */
         return;
     }
-    app->preview = true;
-    if (!app->balloon.mesh.triangle_count || app->session.unsaved)
-        app_remake_balloon(app);
+    if (!app->preview)
+        toggle_balloon(app); /* as the sculpture is now */
     if (!app->preview)
         return;
     enum status status = balloon_inflate(&app->balloon, &err);
