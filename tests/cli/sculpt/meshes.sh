@@ -48,3 +48,9 @@ refused 1 'empty\.stl' balloon-sculpt --import empty.stl -o out.oct
 refused 1 'missing\.obj: cannot open' balloon-sculpt --import missing.obj -o out.oct
 refused 2 '--depth 1: a mesh needs one from 2 to 10' balloon-sculpt --import tetra.ply --depth 1 -o out.oct
 no_file out.oct
+# A million faces out, in little room. (The address sanitizer needs more than that for itself.)
+if (ulimit -v 120000; balloon-sculpt --version) >/dev/null 2>&1; then
+    awk 'BEGIN { print "depth 7\nstart empty"
+                 for (i = 0; i < 32; i++) print "fill box 0 0", i / 32, "1 1", i / 32 + 1 / 128 }' >slabs.chips
+    expect 0 sh -c 'ulimit -v 120000; balloon-sculpt --script slabs.chips --export slabs.ply'
+fi
