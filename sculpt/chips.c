@@ -132,10 +132,17 @@ struct chip chip_image(const struct chip *chip, unsigned axes)
     return image;
 }
 
-static enum status carve(struct octree *tree, const struct chip *chip, struct error *err)
+/* A box holds its lower borders and not its upper ones; its image about the middle planes of these axes holds
+ * the upper ones, as if both lay at the next number. */
+static enum status carve(struct octree *tree, const struct chip *chip, unsigned axes, struct error *err)
 {
     struct shape shape;
     shape_init(&shape, chip, tree->depth);
+    for (int k = 0; k < 3; k++)
+        if (chip->shape == CHIP_BOX && axes >> k & 1) {
+            shape.low[k] = nextafter(shape.low[k], HUGE_VAL);
+            shape.high[k] = nextafter(shape.high[k], HUGE_VAL);
+        }
     return octree_apply(tree, shape.covers, &shape, chip->material, err);
 }
 
@@ -150,7 +157,7 @@ enum status sculpt_chip(struct octree *tree, const struct chip *chip, struct err
             continue;
         const struct chip image = chip_image(chip, axes);
         if (chip->kind == CHIP_CARVE)
-            status = carve(tree, &image, err);
+            status = carve(tree, &image, axes, err);
         else
             memcpy(balls.centre[balls.count++], image.value, sizeof *balls.centre);
     }

@@ -225,6 +225,21 @@ static void a_mirrored_chip_is_the_chip_and_all_its_images(void **state)
     }
 }
 
+/* Its borders run through the middles of cells, of which the lower are a box's own. */
+static void the_image_of_a_box_holds_the_images_of_its_cells(void **state)
+{
+    (void)state;
+    struct octree tree = new_tree(2, 1);
+    const struct chip chip = {.value = {0.125, 0.125, 0.125, 0.375, 0.375, 0.375}, .mirror = 7};
+    apply(&tree, &chip);
+    for (int i = 0; i < 64; i++) {
+        const int at[3] = {i & 3, i >> 2 & 3, i >> 4};
+        const bool corner = at[0] % 3 == 0 && at[1] % 3 == 0 && at[2] % 3 == 0;
+        assert_int_equal(octree_at(&tree, at[0], at[1], at[2]), !corner);
+    }
+    octree_clear(&tree);
+}
+
 static struct chips parse(const char *text)
 {
     struct error err = {0};
@@ -347,6 +362,7 @@ int main(void)
         cmocka_unit_test(sandpaper_leaves_a_plane_and_takes_what_stands_on_it),
         cmocka_unit_test(heat_shrinks_a_cube_by_one_cell_all_around),
         cmocka_unit_test(the_image_of_a_chip_is_the_chip_mirrored_by_hand),
+        cmocka_unit_test(the_image_of_a_box_holds_the_images_of_its_cells),
         cmocka_unit_test(a_mirrored_chip_is_the_chip_and_all_its_images),
         cmocka_unit_test(undo_and_redo_in_a_script_take_back_steps),
         cmocka_unit_test(written_operations_read_back_the_same),
