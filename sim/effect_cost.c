@@ -122,8 +122,10 @@ static void compare(struct course *whole, struct course *rest, double time, stru
                     struct effect_cost_row *row)
 {
     struct sim *w = &whole->sim, *r = &rest->sim;
-    if (isfinite(whole->first_break) || isfinite(rest->first_break))
+    if (isfinite(whole->first_break) || isfinite(rest->first_break)) {
+        row->position_after = fmax(row->position_after, distance(w, r));
         return;
+    }
     sim_look(w, time);
     sim_look(r, time);
     row->position = fmax(row->position, distance(w, r));
@@ -144,7 +146,7 @@ static enum status alternate(struct subject *s, struct course *whole, struct cou
                              struct effect_cost_row *row, struct error *err)
 {
     struct answer answer = {0};
-    row->position = row->volume = row->pressure = 0;
+    row->position = row->volume = row->pressure = row->position_after = 0;
     for (int i = 0; i < EFFECT_COST_STRETCHES; i++) {
         const double time = span * (i + 1) / EFFECT_COST_STRETCHES;
         for (int k = 0; k < 2; k++) {
@@ -224,6 +226,7 @@ static enum status measure_row(struct subject *s, struct effect_cost_table *tabl
                                     .share = NAN,
                                     .bytes = NAN,
                                     .position = NAN,
+                                    .position_after = NAN,
                                     .volume = NAN,
                                     .pressure = NAN,
                                     .first_break = INFINITY};
@@ -265,10 +268,23 @@ bool effect_cost_breaks_otherwise(const struct effect_cost_table *table, const s
     return isfinite(a) != isfinite(b) || (isfinite(a) && fabs(a - b) > 0.01 * a);
 }
 
+static void say_break(const struct effect_cost_table *table, const struct effect_cost_row *row, double before,
+                      char *text, size_t size)
+{
+    const int length = snprintf(text, size,
+                                "until the skin first breaks at %.3g s changes the answer by %.1g, from then "
+                                "on positions by %.1g radii",
+                                table->first_break, before, row->position_after);
+    if (row->pieces != table->pieces)
+        snprintf(text + length, size - (size_t)length, "; in %u pieces, and without it in %u", table->pieces,
+                 row->pieces);
+}
+
 static void say_change(const struct effect_cost_table *table, const struct effect_cost_row *row, char *text,
                        size_t size)
 {
-    const double most = fmax(row->position, fmax(row->volume, row->pressure));
+    const double before = fmax(row->position, fmax(row->volume, row->pressure));
+    const double most = fmax(before, row->position_after);
     const bool otherwise = effect_cost_breaks_otherwise(table, row);
     if (otherwise && isinf(row->first_break))
         snprintf(text, size, "without it nothing breaks (with it at %.3g s): you need it",
@@ -280,12 +296,10 @@ static void say_change(const struct effect_cost_table *table, const struct effec
                  table->first_break, row->first_break);
     else if (most == 0 && row->pieces == table->pieces)
         snprintf(text, size, "changes nothing: you do not need it");
-    else if (row->pieces != table->pieces)
-        snprintf(text, size,
-                 "%u pieces, and without it %u; until the first break it changes positions by %.1g radii",
-                 table->pieces, row->pieces, row->position);
-    else if (most < EFFECT_COST_VISIBLE)
+    else if (most < EFFECT_COST_VISIBLE && row->pieces == table->pieces)
         snprintf(text, size, "changes the answer by %.1g: you may not need it", most);
+    else if (isfinite(table->first_break))
+        say_break(table, row, before, text, size);
     else
         snprintf(text, size,
                  "changes positions by %.2g radii, the volume by %.2g %%, the pressure by %.2g %%",

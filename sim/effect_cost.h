@@ -8,8 +8,8 @@
  *
  * The whole and the rest go through the same stretches of time in turns, so that other programs weigh on both
  * alike; seconds are the thread's own on a processor, and of several goes through a stretch the shortest
- * counts. States are compared at the ends of the stretches until something breaks in one of the two: from
- * there on single runs say nothing point by point.
+ * counts. States are compared at the ends of the stretches until something breaks in one of the two; from
+ * there on only positions are: single runs say little point by point.
  */
 #ifndef SIM_EFFECT_COST_H
 #define SIM_EFFECT_COST_H
@@ -35,7 +35,9 @@ struct effect_cost_row {
     double share;
     double bytes;                      /* that are its own */
     double position, volume, pressure; /* largest changes: RMS in mean radii; relative to the largest */
-    double first_break;                /* s, without it; INFINITY: nothing let go */
+    /* as position, from when the skin breaks in one of the two: chance has its part in that */
+    double position_after;
+    double first_break; /* s, without it; INFINITY: nothing let go */
     uint64_t steps;
     uint32_t pieces; /* at the end */
 };

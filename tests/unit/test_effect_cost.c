@@ -67,6 +67,23 @@ static void what_changes_no_bit_is_not_needed(void **state)
     free(table);
 }
 
+/* Skin that meets the ground only when it has burst: "changes nothing until then: you may not need it" was
+ * said of what all that comes after hangs on. */
+static void what_is_needed_after_a_burst_is_told(void **state)
+{
+    (void)state;
+    char text[1280];
+    struct effect_cost_table *table = measure(
+        SETTINGS("balloons[0].pressure=200", "balloons[0].threshold=1.2", "ground.height=-90", "time.end=1"));
+    const struct effect_cost_row *row = &table->rows[0];
+    assert_true(table->first_break < 2 && row->first_break == table->first_break);
+    assert_true(row->position == 0 && row->position_after > 0.1);
+    say(table, 0, text);
+    assert_non_null(strstr(text, " changes the answer by 0, from then on positions by "));
+    assert_null(strstr(text, "need it"));
+    free(table);
+}
+
 static void a_run_that_diverges_without_it_says_so(void **state)
 {
     (void)state;
@@ -124,6 +141,7 @@ int main(void)
         cmocka_unit_test(what_gravity_does_is_found_to_the_letter),
         cmocka_unit_test(runs_are_compared_at_the_same_moment),
         cmocka_unit_test(what_changes_no_bit_is_not_needed),
+        cmocka_unit_test(what_is_needed_after_a_burst_is_told),
         cmocka_unit_test(a_run_that_diverges_without_it_says_so),
         cmocka_unit_test(whoever_asks_can_end_it),
     };
