@@ -23,6 +23,9 @@ enum { CURES = 8 }; /* turns at what is left of narrow angles after the rounds *
  * larger than the sculpture's detail. */
 #define REACH 4
 
+/* A point is on the surface where |f - T| is not above this. */
+#define ON_SURFACE 1e-9
+
 struct relax {
     const struct relax_settings *settings;
     struct remesh r;
@@ -55,6 +58,29 @@ static void settle_points(void *context, size_t block, unsigned worker)
     }
     if (worker == 0)
         tell(x, x->settings->rounds, x->turn + (double)range.end / x->r.point_count);
+}
+
+/* Points that found no way to the surface, since the field around them is flat, merge into neighbours.
+ * They are few where there are any, and the order counts: one thread. */
+static void merge_strays(struct relax *x)
+{
+    const unsigned workers = threads_workers(x->settings->pool);
+    double worst = 0;
+    for (unsigned i = 0; i < workers; i++)
+        worst = fmax(worst, x->worst[i]);
+    if (worst <= ON_SURFACE)
+        return;
+    memset(x->worst, 0, workers * sizeof *x->worst);
+    for (uint32_t p = 0; p < x->r.point_count; p++) {
+        double residual = 0;
+        do
+            residual = x->r.corner[p] == MESH_NONE
+                           ? 0
+                           : relax_settle(&x->probe[0], x->settings->threshold, REACH * x->mean,
+                                          x->r.position[p], x->r.normal[p]);
+        while (residual > ON_SURFACE && edges_merge(&x->r, p));
+        x->worst[0] = fmax(x->worst[0], residual);
+    }
 }
 
 static bool smooth(struct relax *x)
@@ -106,6 +132,7 @@ static bool run(struct relax *x)
         x->turn = turn;
         memset(x->worst, 0, threads_workers(x->settings->pool) * sizeof *x->worst);
         smoothing_blocks(&x->r, x->settings->pool, settle_points, x);
+        merge_strays(x);
         x->mean = edges_mean(&x->r);
         uint32_t points = x->r.point_count;
         size_t narrow = turn < CURES ? edges_cure(&x->r, x->mean, ANGLE_WANTED, &good) : 0;

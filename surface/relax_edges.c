@@ -162,6 +162,22 @@ void edges_collapse(struct remesh *r, double least, double most, uint32_t count)
     }
 }
 
+bool edges_merge(struct remesh *r, uint32_t point)
+{
+    uint32_t ring[RING_MAX], best_side = MESH_NONE;
+    struct change change, best = {.after = {.facing = -2}};
+    const int count = remesh_ring(r, point, ring);
+    for (int i = 0; i < count; i++)
+        if (remesh_collapse_allowed(r, ring[i]) && try_collapse(r, ring[i], 2, INFINITY, &change) &&
+            change.after.facing > best.after.facing) {
+            best = change;
+            best_side = ring[i];
+        }
+    if (best_side != MESH_NONE)
+        remesh_collapse(r, best_side, best.place, best.normal);
+    return best_side != MESH_NONE;
+}
+
 static struct worth worth_of_halves(const struct remesh *r, uint32_t side, const struct change *change)
 {
     struct worth worth = best_worth;

@@ -19,6 +19,10 @@ void edges_flip(struct remesh *r, double most);
 /* The length below (or above) which there are about `count` edges. */
 double edges_quantile(const struct remesh *r, double mean, uint32_t count, bool below);
 
+/* Merges a point into the neighbour that leaves the triangles around facing outwards best. False where none
+ * may be. */
+bool edges_merge(struct remesh *r, uint32_t point);
+
 /* At each triangle with an angle below angle_deg: the collapse, flip or split nearby that leaves the best
  * smallest angle, where it is better than before. Returns how many such triangles there were; *good is false
  * when memory ran out. */

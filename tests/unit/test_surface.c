@@ -250,6 +250,28 @@ static void the_cube_size_that_a_refusal_names_works(void **state)
     octree_clear(&tree);
 }
 
+/* One narrow field a cell: balls so far apart, or cut off so near, that points between them were left where
+ * the field is flat. */
+static void points_that_find_no_way_to_the_surface_go(void **state)
+{
+    (void)state;
+    static const struct {
+        unsigned depth;
+        double cutoff, cube_size;
+    } cases[] = {{1, 2, 0.55}, {2, 2, 0.275}, {2, 6, 0.075}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct octree tree = new_tree(cases[i].depth, 1);
+        struct surface_options options = surface_defaults();
+        options.field = (struct field_settings){1, 0, 0.2, cases[i].cutoff};
+        options.cube_size = cases[i].cube_size;
+        struct mesh mesh = make(&tree, &options);
+        assert_closed(&mesh);
+        assert_single_rings(&mesh);
+        mesh_clear(&mesh);
+        octree_clear(&tree);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -264,6 +286,7 @@ int main(void)
         cmocka_unit_test(progress_rises_through_meshing_and_smoothing),
         cmocka_unit_test(what_has_no_surface_is_refused_with_the_reason),
         cmocka_unit_test(the_cube_size_that_a_refusal_names_works),
+        cmocka_unit_test(points_that_find_no_way_to_the_surface_go),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
