@@ -24,6 +24,19 @@ bool array_grow(void *items_address, size_t count, size_t extra, size_t item_siz
     return true;
 }
 
+bool array_renew(void *items_address, size_t count, size_t item_size, size_t *room)
+{
+    void *items;
+    memcpy(&items, items_address, sizeof items);
+    if (items && count <= *room)
+        return true;
+    free(items);
+    items = array_new(count, item_size);
+    memcpy(items_address, &items, sizeof items);
+    *room = items ? count : 0;
+    return items;
+}
+
 void *array_new(size_t count, size_t size)
 {
     if (size && count > PTRDIFF_MAX / size)

@@ -23,6 +23,10 @@
  * least doubling the capacity. False when memory, or size_t, is not enough. Call it through ARRAY_RESERVE. */
 bool array_grow(void *items_address, size_t count, size_t extra, size_t item_size, size_t *capacity);
 
+/* Makes room for `count` items, whose old values are not kept, behind the pointer that `items_address` points
+ * to; *room is how much there is. False when memory, or size_t, is not enough: then there is none. */
+bool array_renew(void *items_address, size_t count, size_t item_size, size_t *room);
+
 /* malloc(count * size) that returns NULL on overflow, and for nothing a pointer that can be freed. */
 void *array_new(size_t count, size_t size);
 

@@ -23,17 +23,6 @@ void block_clear(struct block *block)
     memset(block, 0, sizeof *block);
 }
 
-/* Room for `count` doubles, whose old values are not kept. */
-static bool make_room(double **items, size_t count, size_t *room)
-{
-    if (*items && count <= *room)
-        return true;
-    free(*items);
-    *items = array_new(count, sizeof **items);
-    *room = *items ? count : 0;
-    return *items;
-}
-
 /* How many bricks along an axis share a window: gathering is paid for once for all of them, while a window
  * much wider than the fields reach would be longer to look through for each. */
 static int bricks_that_share(const struct grid *grid)
@@ -154,10 +143,12 @@ static bool make_rooms(struct block *block)
     int longest = 0;
     for (int axis = 0; axis < 3; axis++)
         longest = block->size[axis] > longest ? block->size[axis] : longest;
-    return make_room(&block->row, 2 * block->rows * BRICK_CORNERS, &block->row_room) &&
-           make_room(&block->share, (size_t)(block->size[1] * BLOCK_ROW), &block->share_room) &&
-           make_room(&block->beam, 2 * BRICK_CORNERS * block_beam(block), &block->beam_room) &&
-           make_room(&block->line, (size_t)(FIELD_LAYERS * 3 * longest), &block->line_room);
+    return array_renew(&block->row, 2 * block->rows * BRICK_CORNERS, sizeof(double), &block->row_room) &&
+           array_renew(&block->share, (size_t)(block->size[1] * BLOCK_ROW), sizeof(double),
+                       &block->share_room) &&
+           array_renew(&block->beam, 2 * BRICK_CORNERS * block_beam(block), sizeof(double),
+                       &block->beam_room) &&
+           array_renew(&block->line, (size_t)(FIELD_LAYERS * 3 * longest), sizeof(double), &block->line_room);
 }
 
 bool block_sample(struct block *block)

@@ -121,25 +121,10 @@ static bool visit(void *context, const struct octree_leaf *leaf)
     return !g->failed;
 }
 
-/* Room for `count` items, whose old contents are not kept. */
-static bool make_room(void *address, size_t count, size_t size, size_t *room)
-{
-    void *items;
-    if (count <= *room)
-        return true;
-    memcpy(&items, address, sizeof items);
-    free(items);
-    *room = 0;
-    items = array_new(count + count / 2, size);
-    memcpy(address, &items, sizeof items);
-    *room = items ? count + count / 2 : 0;
-    return items;
-}
-
 /* Sorts the pending runs into rows, each row's in the order in which they came. */
 static bool sort_rows(struct window *w)
 {
-    if (!make_room(&w->run, w->pending.count, sizeof *w->run, &w->run_room))
+    if (!array_renew(&w->run, w->pending.count, sizeof *w->run, &w->run_room))
         return false;
     memset(w->start, 0, (w->rows + 1) * sizeof *w->start);
     for (size_t i = 0; i < w->pending.count; i++)
@@ -165,8 +150,8 @@ bool window_fill(struct window *w, const struct field *field, const double low[3
     }
     w->rows = (size_t)field->layers * (size_t)w->size[1] * (size_t)w->size[2];
     w->pending.count = 0;
-    if (!make_room(&w->start, w->rows + 1, sizeof *w->start, &w->start_room) ||
-        !make_room(&w->last, w->rows, sizeof *w->last, &w->last_room))
+    if (!array_renew(&w->start, w->rows + 1, sizeof *w->start, &w->start_room) ||
+        !array_renew(&w->last, w->rows, sizeof *w->last, &w->last_room))
         return false;
     memset(w->last, 0, w->rows * sizeof *w->last);
     if (!empty)

@@ -71,6 +71,23 @@ static void new_room_is_checked_for_overflow_and_may_be_nothing(void **state)
     free(bytes);
 }
 
+static void room_that_is_enough_stays_and_what_cannot_be_had_leaves_none(void **state)
+{
+    (void)state;
+    uint32_t *items = NULL, *before;
+    size_t room = 0;
+    assert_true(array_renew(&items, 0, sizeof *items, &room));
+    assert_non_null(items);
+    assert_true(array_renew(&items, 5, sizeof *items, &room));
+    before = items;
+    assert_true(array_renew(&items, 3, sizeof *items, &room));
+    assert_ptr_equal(items, before);
+    assert_int_equal(room, 5);
+    assert_false(array_renew(&items, SIZE_MAX / 2, sizeof *items, &room));
+    assert_null(items);
+    assert_int_equal(room, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -79,6 +96,7 @@ int main(void)
         cmocka_unit_test(no_room_asked_for_is_no_room_made),
         cmocka_unit_test(more_than_a_size_can_hold_is_refused_and_the_array_stays),
         cmocka_unit_test(new_room_is_checked_for_overflow_and_may_be_nothing),
+        cmocka_unit_test(room_that_is_enough_stays_and_what_cannot_be_had_leaves_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
