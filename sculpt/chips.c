@@ -45,16 +45,17 @@ static enum status check_radius(const struct chip *chip, int i, struct error *er
 {
     if (chip->value[i] >= CHIP_LENGTH_MIN)
         return STATUS_OK;
-    return error_set(err, STATUS_RANGE, "a radius of the %s is %g; must be above 0", name_of(chip)->name,
-                     chip->value[i]);
+    return error_set(err, STATUS_RANGE, "a radius of the %s is %g; must be at least %g", name_of(chip)->name,
+                     chip->value[i], CHIP_LENGTH_MIN);
 }
 
 static enum status check_box(const double *value, struct error *err)
 {
     for (int k = 0; k < 3; k++)
         if (!(fabs(value[k] - value[k + 3]) >= CHIP_LENGTH_MIN))
-            return error_set(err, STATUS_RANGE, "the box is flat along %c; its corners must differ there",
-                             "xyz"[k]);
+            return error_set(err, STATUS_RANGE,
+                             "the box is flat along %c; its corners must differ there, by at least %g",
+                             "xyz"[k], CHIP_LENGTH_MIN);
     return STATUS_OK;
 }
 
@@ -62,8 +63,9 @@ static enum status check_axis(const struct chip *chip, struct error *err)
 {
     if (vec3_distance(chip->value, chip->value + 3) >= CHIP_LENGTH_MIN)
         return STATUS_OK;
-    return error_set(err, STATUS_RANGE, "the axis of the %s has no length; its ends must differ",
-                     chip_shape_names[chip->shape].name);
+    return error_set(err, STATUS_RANGE,
+                     "the axis of the %s has no length; its ends must differ, by at least %g",
+                     chip_shape_names[chip->shape].name, CHIP_LENGTH_MIN);
 }
 
 static enum status check_cone(const struct chip *chip, struct error *err)
@@ -73,7 +75,8 @@ static enum status check_cone(const struct chip *chip, struct error *err)
         if (chip->value[i] != 0 && check_radius(chip, i, err))
             return STATUS_RANGE;
     if (radius[0] == 0 && radius[1] == 0)
-        return error_set(err, STATUS_RANGE, "both radii of the cone are 0; one must be above 0");
+        return error_set(err, STATUS_RANGE, "both radii of the cone are 0; one must be at least %g",
+                         CHIP_LENGTH_MIN);
     return check_axis(chip, err);
 }
 
@@ -92,7 +95,8 @@ static enum status check_shape(const struct chip *chip, struct error *err)
     case CHIP_HALF_SPACE:
         if (vec3_length(chip->value + 3) >= CHIP_LENGTH_MIN)
             return STATUS_OK;
-        return error_set(err, STATUS_RANGE, "the half-space's normal has no length; must point somewhere");
+        return error_set(err, STATUS_RANGE, "the half-space's normal has no length; must have at least %g",
+                         CHIP_LENGTH_MIN);
     case CHIP_CYLINDER:
         status = check_radius(chip, 6, err);
         return status ? status : check_axis(chip, err);

@@ -237,12 +237,16 @@ static void what_is_no_shape_is_refused(void **state)
         struct chip chip;
         const char *part;
     } cases[] = {
-        {{CHIP_SPHERE, 0, {0, 0, 0, 0}, CHIP_CARVE, 0}, "a radius of the sphere is 0; must be above 0"},
+        {{CHIP_SPHERE, 0, {0, 0, 0, 1e-10}, CHIP_CARVE, 0},
+         "a radius of the sphere is 1e-10; must be at least 1e-09"},
+        {{CHIP_SPHERE, 0, {0, 0, 0, 0}, CHIP_CARVE, 0},
+         "a radius of the sphere is 0; must be at least 1e-09"},
         {{CHIP_SPHERE, 0, {0, NAN, 0, 1}, CHIP_CARVE, 0}, "number 2 of the sphere is nan"},
         {{CHIP_SPHERE, 0, {0, 0, 1e300, 1}, CHIP_CARVE, 0},
          "number 3 of the sphere is 1e+300; must be within +-1e+06"},
         {{CHIP_ELLIPSOID, 0, {0, 0, 0, 1, 1, -1}, CHIP_CARVE, 0}, "a radius of the ellipsoid is -1"},
-        {{CHIP_BOX, 0, {0, 0, 0, 1, 0, 1}, CHIP_CARVE, 0}, "the box is flat along y"},
+        {{CHIP_BOX, 0, {0, 0, 0, 1, 0, 1}, CHIP_CARVE, 0},
+         "the box is flat along y; its corners must differ there, by at least 1e-09"},
         {{CHIP_HALF_SPACE, 0, {0, 0, 0, 0, 0, 0}, CHIP_CARVE, 0}, "normal has no length"},
         {{CHIP_CYLINDER, 0, {1, 1, 1, 1, 1, 1, 1}, CHIP_CARVE, 0}, "the axis of the cylinder has no length"},
         {{CHIP_CYLINDER, 0, {0, 0, 0, 1, 1, 1, INFINITY}, CHIP_CARVE, 0}, "number 7 of the cylinder is inf"},

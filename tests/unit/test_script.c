@@ -63,7 +63,7 @@ static void a_wrong_line_is_named(void **state)
         {"chip sphere 0 0 0 1\nchip sphere 0 nan 0 1\n", "a.chips:2: \"nan\" must be a finite number"},
         {"chip sphere 0 -inf 0 1\n", "a.chips:1: \"-inf\" must be a finite number"},
         {"chip sphere 0 1e999 0 1\n", "a.chips:1: \"1e999\" must be a finite number"},
-        {"chip sphere 0 0 0 -1\n", "a.chips:1: a radius of the sphere is -1; must be above 0"},
+        {"chip sphere 0 0 0 -1\n", "a.chips:1: a radius of the sphere is -1; must be at least 1e-09"},
         {"depth 11\n", "a.chips:1: \"11\" must be a whole number from 0 to 10; the line is: depth N"},
         {"depth 2.5\n", "a.chips:1: \"2.5\" must be a whole number from 0 to 10"},
         {"depth\n", "a.chips:1: the line ends early; it is: depth N"},

@@ -340,7 +340,7 @@ static void wrong_lines_of_the_tools_are_named(void **state)
         {"mirror xx\n", "text:1: \"xx\" is no mirror"},
         {"mirror x y\n", "text:1: \"y\" is one word too many; the line is: mirror none"},
         {"sandpaper 0 0 0\n", "text:1: the line ends early; it is: sandpaper X Y Z R"},
-        {"heat 0 0 0 0\n", "text:1: a radius of the heat is 0; must be above 0"},
+        {"heat 0 0 0 0\n", "text:1: a radius of the heat is 0; must be at least 1e-09"},
         {"heat 0 0 nan 1\n", "text:1: \"nan\" must be a finite number; the line is: heat X Y Z R"},
         {"heat 0 0 2e6 1\n", "text:1: number 3 of the heat is 2e+06; must be within +-1e+06"},
         {"step 1\n", "text:1: \"1\" is one word too many; the line is: step"},
