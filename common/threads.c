@@ -10,9 +10,16 @@
 
 /* Looks at the other side this often before going to sleep: for 50 to 200 microseconds, by how long the
  * machine pauses. What one does alone between two shares of contact's work is shorter, and to be woken takes
- * as long where the machine is a virtual one. Where all processors are taken by others, spinning longer would
- * only keep from them what one waits for. */
+ * as long where the machine is a virtual one. */
 enum { SPINS = 5000 };
+
+/* How one who waits goes about it. What has not come after SPINS is held up by other programs, or by more
+ * workers than processors, and spinning takes the processor from it: after each try in vain four times as
+ * many waits go by without one, up to RESTS_MOST, and half as many after one that was not. */
+struct patience {
+    unsigned rests, left; /* waits without spinning; of these still to come */
+};
+enum { RESTS_MOST = 255 };
 
 struct worker {
     struct threads *pool;
@@ -22,6 +29,7 @@ struct worker {
 
 struct threads {
     unsigned workers;
+    struct patience patience; /* the caller's */
     void (*function)(void *context, unsigned worker, unsigned workers);
     void *context;
     /* Each on a cache line of its own: they are watched by those who wait. */
@@ -49,14 +57,31 @@ static void relax(void)
 #endif
 }
 
-/* Waits until *value is no longer (while_equal) or has become (!while_equal) `what`. A sleeper counts itself
- * before it looks for the last time, and who changes the value counts sleepers after that: both in one order
- * for all, so no wake is lost. */
-static void wait_for(struct threads *pool, atomic_uint *value, unsigned what, bool while_equal)
+/* Until *value is no longer (while_equal) or has become (!while_equal) `what`. */
+static bool spin(struct patience *patience, atomic_uint *value, unsigned what, bool while_equal)
 {
-    for (int spin = 0; spin < SPINS; spin++, relax())
-        if ((atomic_load(value) == what) != while_equal)
-            return;
+    if (patience->left > 0) {
+        patience->left--;
+        return false;
+    }
+    int spins = 0;
+    for (; spins < SPINS && (atomic_load(value) == what) == while_equal; spins++)
+        relax();
+    const bool come = spins < SPINS;
+    patience->rests = come                               ? patience->rests / 2
+                      : 4 * patience->rests < RESTS_MOST ? 4 * patience->rests + 1
+                                                         : RESTS_MOST;
+    patience->left = patience->rests;
+    return come;
+}
+
+/* A sleeper counts itself before it looks for the last time, and who changes the value counts sleepers after
+ * that: both in one order for all, so no wake is lost. */
+static void wait_for(struct threads *pool, struct patience *patience, atomic_uint *value, unsigned what,
+                     bool while_equal)
+{
+    if (spin(patience, value, what, while_equal))
+        return;
     pthread_mutex_lock(&pool->lock);
     atomic_fetch_add(&pool->asleep, 1);
     while ((atomic_load(value) == what) == while_equal)
@@ -78,8 +103,9 @@ static void *work(void *argument)
 {
     struct worker *me = argument;
     struct threads *pool = me->pool;
+    struct patience patience = {0, 0};
     for (unsigned job = 0;; job++) {
-        wait_for(pool, &pool->job, job, true);
+        wait_for(pool, &patience, &pool->job, job, true);
         if (atomic_load(&pool->ending))
             return NULL;
         pool->function(pool->context, me->number, pool->workers);
@@ -151,7 +177,7 @@ void threads_each(struct threads *pool, void (*function)(void *context, unsigned
     atomic_fetch_add(&pool->job, 1);
     wake(pool);
     function(context, 0, pool->workers);
-    wait_for(pool, &pool->busy, 0, false);
+    wait_for(pool, &pool->patience, &pool->busy, 0, false);
 }
 
 struct run {

@@ -13,6 +13,7 @@
  *
  * Workers wait for the next job spinning, for about as long as a sleep and a wake would take, and then
  * sleep: two calls that follow each other closely cost a microsecond or two, an idle pool costs nothing.
+ * Where others take the processors, they soon give spinning up for a while.
  *
  * Results that do not depend on the number of workers are the caller's business: write to places that belong
  * to the index, and add up in the order of the indices afterwards.
