@@ -249,7 +249,14 @@ const char *fracture_prick(struct sim *sim, struct sim_balloon *b, const double 
     b->fracture->stamps++;
     const uint32_t cuts = open_at(sim, b, nearest, 0.075 * b->fracture->radius);
     fracture_tell_gas(sim, b);
-    return cuts > 0 ? NULL : "Nothing can be cut here: what is left of the skin is too small.";
+    if (cuts > 0)
+        return NULL;
+    if (!b->fracture->told_whole)
+        sim_tell(sim, b, "fracture",
+                 "is pricked where nothing can be cut: too little skin is left there, or too many triangles "
+                 "meet");
+    b->fracture->told_whole = true;
+    return "Nothing can be cut here: too little skin is left, or too many triangles meet.";
 }
 
 /* At the point at rest that lies most nearly in the direction of place. */

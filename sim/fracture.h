@@ -59,6 +59,7 @@ struct fracture {
     uint32_t *hole_of;                  /* [sides of triangles] scratch for them */
     unsigned char *lost;                /* [triangles] 1: fell off the gas's piece */
     bool told_fan;                      /* that a crack has come to more than FAN_MAX triangles */
+    bool told_whole;                    /* that a prick has cut nothing */
 
     struct crack_tip *tips; /* [TIPS_MAX] */
     double (*births)[3];    /* [BIRTHS_MAX] places at rest */

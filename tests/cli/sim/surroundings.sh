@@ -49,3 +49,13 @@ ply m.ply "$tetra_points" "$tetra_triangles"
 } >many.cfg
 expect 0 balloon-sim many.cfg --log many.tsv
 [ "$(grep -c ': pins: let go' .stderr)" = 20 ] || fail "not all balloons have their say"
+
+# A needle that comes to skin of which nothing can be cut is told of, once: here corners of a pyramid whose skin may not come in two.
+ply m.ply "$tetra_points" "$tetra_triangles"
+printf 'time = { step = 0.01; end = 0.7; integrator = "symplectic-euler"; };\nballoons = ( { mesh = "m.ply"; radius = 0; pressure = 0; ' >corner.cfg
+printf 'fracture = { smallest = 0.5; }; } );\nneedles = ( { from = [-0.2, -0.23, -1]; velocity = [0, 0, 10]; },\n' >>corner.cfg
+printf '{ at = 0.2; from = [0.7, -0.23, -1]; velocity = [0, 0, 10]; }, { at = 0.4; from = [-0.23, 0.7, -1]; velocity = [0, 0, 10]; } );\n' >>corner.cfg
+expect 0 balloon-sim corner.cfg --hash
+stderr_has '^balloon-sim: at 0.08 s: balloons\[0\]: fracture: the skin tears$'
+[ "$(grep -c '^balloon-sim: at 0.28 s: balloons\[0\]: fracture: is pricked where nothing can be cut: ' .stderr)" = 1 ] ||
+    fail "a needle that cut nothing is told of otherwise than once"
