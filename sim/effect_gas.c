@@ -1,3 +1,4 @@
+#include "common/scene_checks.h"
 #include "common/vec3.h"
 #include "sim/effects.h"
 #include "sim/gas.h"
@@ -38,6 +39,17 @@ static void fill(struct sim *sim, struct sim_balloon *b)
     gas->memory.neck_open = gas->scene->neck > 0 && gas->scene->neck_at <= 0;
 }
 
+/* A skin around nothing but rounding holds no gas, and what that does to the skin cannot be told. */
+static enum status check_room(const struct sim *sim, const struct sim_balloon *b, struct error *err)
+{
+    if (b->gas->rest_volume > 1e-12 * b->radius * b->radius * b->radius)
+        return STATUS_OK;
+    return scene_contradiction(
+        sim->scene, (size_t)(b - sim->balloons), "gas", b->scene->gas.line, err,
+        "the mesh has a volume of %.2g, no room for gas; take one that does not lie flat",
+        b->gas->rest_volume);
+}
+
 static bool tears_along_cracks(const struct scene_balloon *balloon)
 {
     return balloon->fracture.on && balloon->fracture.mode == SCENE_FRACTURE_TEAR;
@@ -63,7 +75,7 @@ static enum status open(struct sim *sim, struct sim_balloon *b, struct error *er
         status = gas_torn_open(sim, b, err);
     if (!status)
         fill(sim, b);
-    return status;
+    return status ? status : check_room(sim, b, err);
 }
 
 static void close(struct sim *sim, struct sim_balloon *b)

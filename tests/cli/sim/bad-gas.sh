@@ -61,3 +61,21 @@ ply open.ply '0 0 0
 printf 'balloons = ( { mesh = "open.ply"; gas = { ambient = 10; }; } );\n' > open.cfg
 expect 1 balloon-sim open.cfg --check
 stderr_has 'open.ply: the edge from .* has one triangle only, .*; a balloon must be closed to hold air'
+# Nor does a skin that lies flat hold any; nor is there a height over which its springs could vary.
+ply flat.ply '1 0 0
+0 0 1
+-1 0 0
+0 0 -1
+0 0 0
+0.1 0 0.1' '0 1 4
+1 2 4
+2 3 4
+3 0 4
+1 0 5
+2 1 5
+3 2 5
+0 3 5'
+printf 'balloons = (\n{ mesh = "flat.ply"; pressure = 0; gas = { ambient = 10; }; } );\n' >flat.cfg
+refused 1 'flat.cfg:2: balloons\[0\].gas: the mesh has a volume of .*, no room for gas; take one that does not lie flat$' balloon-sim flat.cfg
+printf 'balloons = (\n{ mesh = "flat.ply"; pressure = 0; spring_by_height = { profile = ( (0, 1), (1, 2) ); }; } );\n' >flat.cfg
+refused 1 'flat.cfg:2: balloons\[0\].spring_by_height: all points are at one height, over which nothing varies; .*' balloon-sim flat.cfg
