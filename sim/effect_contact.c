@@ -171,15 +171,18 @@ static enum status check_apart(struct sim *sim, struct error *err)
     if (crossings.found == 0)
         return STATUS_OK;
     const double *x = sim->position[sim->triangle_point[crossings.t][0]];
-    char line[16] = "";
+    const size_t one = number_of_balloon(sim, crossings.t), other = number_of_balloon(sim, crossings.u);
+    char line[16] = "", who[96];
     if (sim->scene->contact.line)
         snprintf(line, sizeof line, ":%u", sim->scene->contact.line);
-    return error_set(
-        err, STATUS_INPUT,
-        "%s%s: contact: the skins of balloons[%zu] and balloons[%zu] cross before the first step, near (%g, %g, "
-        "%g); move them apart",
-        sim->scene->path, line, number_of_balloon(sim, crossings.t), number_of_balloon(sim, crossings.u),
-        x[0], x[1], x[2]);
+    if (one == other)
+        snprintf(who, sizeof who, "the skin of balloons[%zu] crosses itself", one);
+    else
+        snprintf(who, sizeof who, "the skins of balloons[%zu] and balloons[%zu] cross", one, other);
+    return error_set(err, STATUS_INPUT, "%s%s: contact: %s before the first step, near (%g, %g, %g); %s",
+                     sim->scene->path, line, who, x[0], x[1], x[2],
+                     one == other ? "take a mesh that does not, as of more triangles, or leave out contact"
+                                  : "move them apart");
 }
 
 static enum status open(struct sim *sim, struct sim_balloon *balloon, struct error *err)

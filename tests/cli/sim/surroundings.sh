@@ -6,6 +6,21 @@ printf 'balloons = ( { mesh = "sphere.ply"; } );\nground = { height = 10.0; };\n
 refused 1 'ground.cfg:2: balloons\[0\] begins inside the ground' balloon-sim ground.cfg
 printf 'balloons = ( { mesh = "sphere.ply"; }, { mesh = "sphere.ply"; position = [9.0, 0.0, 0.0]; } );\ncontact = { };\n' >cross.cfg
 refused 1 'cross.cfg:2: contact: the skins of balloons\[0\] and balloons\[1\] cross' balloon-sim cross.cfg
+ply crossed.ply '1 1 0
+-1 1 0
+-1 -1 0
+1 -1 0
+0 0 -3
+2 0 -1' '1 0 4
+2 1 4
+3 2 4
+0 3 4
+0 1 5
+1 2 5
+2 3 5
+3 0 5'
+printf 'balloons = ( { mesh = "crossed.ply"; } );\ncontact = { };\n' >crossed.cfg
+refused 1 'crossed.cfg:2: contact: the skin of balloons\[0\] crosses itself before .* near .*; take a mesh that does not' balloon-sim crossed.cfg
 sed 2d cross.cfg >apart.cfg
 expect 0 balloon-sim apart.cfg --check
 stderr_has 'balloons\[0\] and balloons\[1\] begin in one another.s room, and pass through each other: .* contact = \{ \};$'
