@@ -136,7 +136,6 @@ int main(int argc, char **argv)
         shape_icosphere(level, &mesh);
         bench(&mesh);
     }
-
     bench_beside_others();
     return 0;
 }
