@@ -87,8 +87,9 @@ static enum status draw(const void *context, const char *scene, const char *path
          .from_zero = true,
          .series = &of_time,
          .series_count = 1},
-        {.title = starred ? "What changes without it; *: how the skin breaks, too"
-                          : "What changes without it",
+        {.title = starred                        ? "What changes until it breaks; *: it breaks otherwise"
+                  : isfinite(table->first_break) ? "What changes without it until the skin breaks"
+                                                 : "What changes without it",
          .y_label = "RMS change of positions, in radii",
          .log_y = true,
          .series = &of_places,
