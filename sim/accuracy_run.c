@@ -149,12 +149,20 @@ static double area_of(const struct sim *sim, const struct sim_balloon *b)
     return area;
 }
 
+/* Of gas that presses no harder than the air outside rounding leaves some, whose errors mean nothing: it is
+ * taken for none. */
+static double gauge_of(struct sim *sim, const struct sim_balloon *b)
+{
+    const double gauge = gas_gauge_pressure(sim, b), rounding = 1e-12;
+    return b->gas && fabs(gauge) < rounding * b->scene->gas.ambient ? 0 : gauge;
+}
+
 /* The pressing forces on all points, by their sizes, over the area that they press on. */
 static double mean_pressure(struct sim *sim, double area)
 {
     double force = 0;
     for (const struct sim_balloon *b = sim->balloons; b < sim->balloons + sim->balloon_count; b++)
-        force += b->by_area ? gas_gauge_pressure(sim, b) * area_of(sim, b)
+        force += b->by_area ? gauge_of(sim, b) * area_of(sim, b)
                             : b->now->pressure * (b->point_end - b->point_begin);
     return area > 0 ? force / area : 0;
 }

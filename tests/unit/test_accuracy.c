@@ -153,6 +153,21 @@ static void references_agree_on_gas_as_well(void **state)
         assert_true(table.rows[i].error < 1e-5 || table.rows[i].pressure > 2 * table.rows[i].volume);
 }
 
+/* As long as it only falls it presses with what rounding leaves, of which no error is a share. */
+static void gas_that_does_not_press_has_no_error(void **state)
+{
+    (void)state;
+    static struct accuracy_table table;
+    struct error err = {0};
+    assert_ok(measure(SETTINGS("balloons[0].gas.ambient=10", "balloons[0].pressure=0", "time.end=0.2",
+                               "gravity.acceleration=[3,-9,1]"),
+                      &(struct pricing_options){.seconds = 0.3 * slowdown()}, &table, &err),
+              &err);
+    assert_true(table.count > 0);
+    for (size_t i = 0; i < table.count; i++)
+        assert_true(isnan(table.rows[i].pressure));
+}
+
 static bool stop(void *context, double done)
 {
     (void)done;
@@ -223,6 +238,7 @@ int main(void)
         cmocka_unit_test(auto_has_no_order_where_it_takes_another_method),
         cmocka_unit_test(the_span_ends_before_the_first_break_and_ensembles_go_past_it),
         cmocka_unit_test(references_agree_on_gas_as_well),
+        cmocka_unit_test(gas_that_does_not_press_has_no_error),
         cmocka_unit_test(it_ends_when_somebody_wants_it_to),
         cmocka_unit_test(it_ends_within_a_step_too),
         cmocka_unit_test(progress_moves_within_a_run_and_never_goes_back),
