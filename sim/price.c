@@ -87,7 +87,9 @@ static void print_span(const struct accuracy_table *table, FILE *stream)
     double best = INFINITY;
     for (size_t i = 0; i < table->count; i++)
         best = fmin(best, table->rows[i].error);
-    fprintf(stream, ", %.3g times better than the best row\n", best / table->agreement);
+    if (isfinite(best) && table->agreement > 0)
+        fprintf(stream, ", %.3g times better than the best row", best / table->agreement);
+    fputc('\n', stream);
     if (isfinite(table->met))
         fprintf(
             stream,

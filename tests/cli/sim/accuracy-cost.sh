@@ -44,6 +44,11 @@ done
 grep -q '^bdf2' tears.tsv || fail "no row of bdf2, which can follow it"
 stdout_has '^# references: rk-adaptive at '
 
+# where all methods are right to the last digit there is no best row to be compared with
+expect 0 balloon-sim cube.ply $small --set time.end=0.1 --set balloons[0].pressure=0 --accuracy-cost rest.tsv
+stdout_has '^# references: .* and .* extrapolated: they agree to [0-9.e+-]+$'
+stdout_has '^# left out: [0-9]+ rows with errors below'
+
 # the setting is what --set takes
 setting=$(awk -F'\t' '$1 == "verlet" { print $2; exit }' cost.tsv)
 expect 0 balloon-sim cube.ply $calm --set time.integrator=verlet --set "$setting" --log v.tsv
