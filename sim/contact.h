@@ -72,7 +72,8 @@ struct contact {
     double stray, used;           /* at its end */
     uint64_t listed;              /* memory.found of the list at hand; another number: to be found again */
 
-    /* sim->broken when leaves and stars were found, and when all pairs were; UINT32_MAX: not yet. */
+    /* sim->broken when leaves and stars were found, and when all pairs were; UINT32_MAX: not yet, or some of
+     * the skin is about to vanish. */
     uint32_t shared_broken, listed_broken;
     uint32_t *star_end,
         *star; /* [point_count], [3 triangle_count] the active triangles around p end at star_end[p]; owned */

@@ -186,13 +186,20 @@ void contact_round(struct sim *sim, struct contact_rounding *job)
     sim_each_part(sim, round_part, job);
 }
 
+/* Triangles of edges that an effect cut after the last step vanish at the end of this one only: what is found
+ * before that holds for this step. */
+static uint32_t broken_when_found(const struct sim *sim)
+{
+    return sim->edges_broke ? UINT32_MAX : sim->broken;
+}
+
 struct contact_finder contact_finder_begin(struct sim *sim)
 {
     struct contact *c = sim->contact;
     if (c->shared_broken != sim->broken || c->listed + 1 != c->memory.found) {
         contact_tree_share(&c->tree, sim);
         find_stars(sim, c);
-        c->shared_broken = sim->broken;
+        c->shared_broken = broken_when_found(sim);
     }
     for (unsigned i = 0; i < threads_workers(sim->pool); i++)
         memset(c->taken[i].leaf, 0xff, sizeof c->taken[i].leaf);
@@ -221,7 +228,7 @@ static uint32_t find_all(struct sim *sim)
     const struct contact_ways ways = contact_ways_of(c);
     struct contact_finder finder = contact_finder_begin(sim);
     c->pair_count = c->indexed = c->linked = 0;
-    c->listed_broken = sim->broken;
+    c->listed_broken = broken_when_found(sim);
     memcpy(c->origin, c->from[0], sizeof c->origin);
     struct contact_rounding lines = contact_round_lines(c);
     contact_round(sim, &lines);

@@ -318,14 +318,14 @@ static size_t count_holes_passed_over(const struct contact_tree *tree, const uns
     return count;
 }
 
-static void test_skin_that_has_vanished_stands_in_nobodys_way(void **state)
+/* After each of 200 steps; whether some has vanished, and pairs were found again around points. */
+static void check_vanished(const char *const *settings, uint32_t vanish, uint64_t mend)
 {
-    (void)state;
     struct scene_of_two s;
     struct error err = {0};
     uint32_t vanished = 0;
     uint64_t mended = 0;
-    open_scene(&s, 3, 1, BREAKING);
+    open_scene(&s, 3, 1, settings);
     throw(&s.sim, 30);
     unsigned char *active = malloc(s.sim.triangle_count);
     for (int i = 0; i < 200; i++) {
@@ -337,9 +337,27 @@ static void test_skin_that_has_vanished_stands_in_nobodys_way(void **state)
     }
     for (uint32_t t = 0; t < s.sim.triangle_count; t++)
         vanished += !active[t];
-    assert_true(vanished > 10 && mended > 10);
+    assert_true(vanished > vanish && mended > mend);
     free(active);
     close_scene(&s);
+}
+
+static void test_skin_that_has_vanished_stands_in_nobodys_way(void **state)
+{
+    (void)state;
+    check_vanished(BREAKING, 10, 10);
+}
+
+/* A rip cuts its edges when the step's triangles have been asked: they vanish in the next. */
+static void test_nor_does_skin_that_a_rip_lets_vanish(void **state)
+{
+    (void)state;
+    check_vanished(
+        SETTINGS("contact.thickness=0.5", "balloons[1].mesh=sphere", "balloons[0].position=[-60,0,0]",
+                 "balloons[1].position=[60,3,2]", "balloons[0].threshold=100", "balloons[0].pressure=0",
+                 "balloons[1].threshold=100", "balloons[1].pressure=0", "time.step=0.0125",
+                 "balloons[0].rip.stretch=0", "balloons[0].rip.at=0.8", "balloons[0].rip.place=[1,0,0]"),
+        2, 0);
 }
 
 int main(void)
@@ -352,6 +370,7 @@ int main(void)
         cmocka_unit_test(test_no_push_takes_a_point_further_than_the_sweep_knows),
         cmocka_unit_test(test_no_step_of_skins_that_break_on_each_other_ends_with_an_overlong_edge),
         cmocka_unit_test(test_skin_that_has_vanished_stands_in_nobodys_way),
+        cmocka_unit_test(test_nor_does_skin_that_a_rip_lets_vanish),
         cmocka_unit_test(test_contact_does_not_move_what_pins_hold),
         cmocka_unit_test(test_a_skin_that_is_cut_keeps_apart_at_its_cuts_too),
         cmocka_unit_test(test_the_pieces_of_a_balloon_that_bursts_keep_apart),
