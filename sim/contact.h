@@ -58,7 +58,7 @@ struct contact {
         uint64_t made_in;            /* the step, from 1; the lines begin where it did */
         uint64_t horizon;            /* steps for which it was made */
         uint64_t torn;               /* points that cuts had doubled by then */
-        uint64_t pairs;              /* that were near each other then */
+        uint64_t pairs;              /* that were near each other then, or since */
         uint64_t again;              /* points around which it was found anew since */
         uint64_t is_awake;           /* 1: the last step had pairs to look at */
         uint64_t wakes, zones;       /* so far: wakes; steps that needed a rigid zone */

@@ -342,6 +342,8 @@ enum status contact_list_follow(struct sim *sim, struct error *err)
         enum status status = contact_pairs_find(sim, err);
         if (status)
             return status;
+        if (c->memory.pairs == 0) /* patches with a new hole may be near themselves */
+            c->memory.pairs = c->pair_count;
     }
     if (surely_holds(sim))
         return STATUS_OK;

@@ -115,11 +115,12 @@ static void push_all(struct sim *sim)
     }
 }
 
-/* Sleeps while no pair is near. */
+/* Sleeps while no pair is near, by the list as it was made: one that is found anew, as where a run is
+ * resumed, is without those that have gone apart. */
 static void note_awake(struct sim *sim)
 {
     struct contact_memory *memory = &sim->contact->memory;
-    const bool awake = sim->contact->pair_count > 0;
+    const bool awake = memory->pairs > 0;
     if (awake && !memory->is_awake) {
         memory->wakes++;
         sim_tell(sim, sim->balloons, "contact", "wakes: skins come near each other");
