@@ -129,11 +129,13 @@ static double most_a_second(const struct sim *sim)
 }
 
 /* Of gas that is gone: the air's. */
-static struct gas_drive drive_at(const struct sim *sim, const struct gas *gas, double pressure, double volume)
+static struct gas_drive drive_at(const struct sim *sim, const struct gas *gas, double pressure, double volume,
+                                 double gauge)
 {
     const double amount = gas_amount(sim, gas), capacity = amount / (pressure * gas->g);
     const bool gone = gas->memory.gone;
-    return (struct gas_drive){.pressure = pressure,
+    return (struct gas_drive){.pressure = gone ? gas->memory.left_at : pressure,
+                              .gauge = gone ? 0 : gauge,
                               .density = gas->scene->density *
                                          (gone ? 1 : amount / (volume * gas->scene->ambient)),
                               .warmth = gone ? 1 : pressure * volume / amount,
@@ -145,15 +147,13 @@ static struct gas_drive drive_at(const struct sim *sim, const struct gas *gas, d
 struct gas_drive gas_drive(const struct sim *sim, const struct sim_balloon *balloon)
 {
     const struct gas *gas = balloon->gas;
-    return drive_at(sim, gas, gas->pressure, gas->volume);
+    return drive_at(sim, gas, gas->pressure, gas->volume, fabs(gas->pressure - gas->outside));
 }
 
 struct gas_drive gas_drive_in_bound(const struct sim *sim, const struct sim_balloon *balloon)
 {
-    const struct gas *gas = balloon->gas;
-    if (gas->memory.gone)
-        return gas_drive(sim, balloon);
-    return drive_at(sim, gas, gas->memory.bound_pressure, gas->memory.bound_volume);
+    const struct gas_memory *memory = &balloon->gas->memory;
+    return drive_at(sim, balloon->gas, memory->bound_pressure, memory->bound_volume, memory->bound_gauge);
 }
 
 void gas_stream(struct sim *sim, const struct sim_balloon *balloon, double rate, double warmth)
@@ -247,7 +247,7 @@ static void let_all_go(struct sim *sim, struct sim_balloon *b)
     scalar[GAS_BROUGHT] -= scalar[GAS_AMOUNT];
     scalar[GAS_AMOUNT] = 0;
     b->gas->memory.gone = 1;
-    b->gas->pressure = b->gas->outside;
+    b->gas->memory.left_at = b->gas->pressure = b->gas->outside;
     sim->changed = true;
     guard_bound_outdated(sim);
     sim_tell(sim, b, "gas", "has left through the holes, and sleeps");

@@ -70,6 +70,7 @@ bool gas_flows(const struct sim_balloon *balloon);
 /* What drives tubes. */
 struct gas_drive {
     double pressure;
+    double gauge; /* the size of what it is more than that of the air beside it; in a bound as that has it */
     double density;        /* mass over volume */
     double warmth;         /* the temperature over that of the air */
     double amount_of_mass; /* N over mass */

@@ -21,15 +21,12 @@ static bool wanted(const struct scene_balloon *balloon)
 struct pair {
     const struct scene_balloon *scene; /* whose tube it is */
     const struct gas_drive *from, *into;
-    double ambient;
 };
 
 /* The difference of pressures below which flow is laminar. */
 static double laminar(const struct pair *pair)
 {
-    const double gauge = fmax(fabs(pair->from->pressure - pair->ambient),
-                              fabs(pair->into->pressure - pair->ambient));
-    return fmax(0.01 * gauge, GAS_LAMINAR * pair->from->pressure);
+    return fmax(0.01 * fmax(pair->from->gauge, pair->into->gauge), GAS_LAMINAR * pair->from->pressure);
 }
 
 /* Of N, a second. */
@@ -56,7 +53,7 @@ static void apply(struct sim *sim, struct sim_balloon *b)
     struct sim_balloon *to = &sim->balloons[b->scene->tube.to];
     const struct gas_drive here = gas_drive(sim, b), there = gas_drive(sim, to);
     const bool out = here.pressure > there.pressure;
-    const struct pair pair = {b->scene, out ? &here : &there, out ? &there : &here, b->gas->outside};
+    const struct pair pair = {b->scene, out ? &here : &there, out ? &there : &here};
     const double difference = pair.from->pressure - pair.into->pressure;
     b->gas->tube_held = false;
     if (!(difference > 0) || !(pair.from->density > 0))
@@ -86,7 +83,7 @@ static double follow(const struct sim *sim, const struct sim_balloon *b)
     const struct gas_drive drive[2] = {gas_drive_in_bound(sim, b), gas_drive_in_bound(sim, to)};
     double longest = INFINITY;
     for (int i = 0; i < 2; i++) {
-        const struct pair pair = {b->scene, &drive[i], &drive[1 - i], b->gas->outside};
+        const struct pair pair = {b->scene, &drive[i], &drive[1 - i]};
         const double difference = laminar(&pair);
         if (drive[i].density > 0)
             longest = fmin(longest, fmin(drive[0].capacity, drive[1].capacity) / 8 * difference /

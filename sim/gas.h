@@ -43,6 +43,7 @@ struct gas {
         double bound_volume, bound_pressure, bound_gauge; /* for which the guard's bound was found */
         /* 1: nothing is left to press; pieces have fallen off; the neck has opened; so has a tear */
         uint64_t gone, let_go, neck_open, torn_open;
+        double left_at; /* the air's pressure where gas that is gone went; 0 before */
     } memory;
 };
 

@@ -5,7 +5,7 @@
 #include "sim/gas.h"
 #include "sim/guard.h"
 #include "sim/sim.h"
-#include "unit/balloon.h"
+#include "unit/checkpoints.h"
 
 /* Of the balloon's points, from their middle. */
 static double stretch_of(const struct sim *sim, const struct sim_balloon *b)
@@ -208,6 +208,15 @@ static void what_is_held_back_is_told_once(void **state)
     }
 }
 
+static const struct gas *burst_other(struct pair *pair)
+{
+    struct gas *burst = pair->sim.balloons[1].gas;
+    burst->memory.gone = 1;
+    burst->memory.left_at = burst->scene->ambient;
+    pair->sim.scalar[burst->scalar + GAS_AMOUNT] = 0;
+    return burst;
+}
+
 /* Where the other balloon has burst, the tube ends in the air: what is joined to it empties, and nothing
  * is lost from the books. */
 static void a_tube_to_what_has_burst_ends_in_the_air(void **state)
@@ -215,10 +224,7 @@ static void a_tube_to_what_has_burst_ends_in_the_air(void **state)
     (void)state;
     struct pair pair;
     open_pair(&pair, 1, SETTINGS());
-    struct gas *burst = pair.sim.balloons[1].gas;
-    burst->memory.gone = 1;
-    burst->pressure = burst->scene->ambient;
-    pair.sim.scalar[burst->scalar + GAS_AMOUNT] = 0;
+    const struct gas *burst = burst_other(&pair);
     const double first = amount_in(&pair, 0);
     run_to(&pair, 60);
     const struct gas_look left = gas_look(&pair.sim, &pair.sim.balloons[0]);
@@ -228,15 +234,39 @@ static void a_tube_to_what_has_burst_ends_in_the_air(void **state)
     close_pair(&pair);
 }
 
+/* The pressure of the gas that had gone was not kept: a run that was resumed took the one that it began with,
+ * and steps of another length. */
+static void a_tube_into_the_air_is_the_same_where_a_run_is_resumed(void **state)
+{
+    (void)state;
+    struct pair whole, resumed;
+    struct error err = {0};
+    struct checkpoint_run run = {.first_break = -1};
+    open_pair(&whole, 1, SETTINGS());
+    open_pair(&resumed, 1, SETTINGS());
+    burst_other(&whole);
+    run_to(&whole, 1);
+    assert_ok(checkpoint_save(&whole.sim, &run, "half.ck", &err), &err);
+    assert_ok(checkpoint_load("half.ck", &resumed.sim, &run, &err), &err);
+    run_to(&whole, 20);
+    run_to(&resumed, 20);
+    assert_true(sim_hash(&resumed.sim) == sim_hash(&whole.sim));
+    free(run.rows);
+    unlink("half.ck");
+    close_pair(&resumed);
+    close_pair(&whole);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_smaller_shrinks_and_the_larger_grows),
         cmocka_unit_test(what_flows_converges_with_the_step),
         cmocka_unit_test(a_tube_to_what_has_burst_ends_in_the_air),
+        cmocka_unit_test(a_tube_into_the_air_is_the_same_where_a_run_is_resumed),
         cmocka_unit_test(the_guard_splits_what_a_tube_is_too_fast_for),
         cmocka_unit_test(a_method_that_chooses_its_steps_follows_a_wide_tube),
         cmocka_unit_test(what_is_held_back_is_told_once),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
