@@ -3,6 +3,8 @@
 #include "common/file.h"
 #include "sculpt/sculpt.h"
 
+#include <stdio.h>
+
 bool sculpt_import_is_name(const char *path)
 {
     return mesh_is_readable_name(path) || file_has_extension(path, "vox");
@@ -24,4 +26,20 @@ enum status sculpt_import(const char *path, unsigned depth, struct octree *tree,
     octree_clear(tree);
     *tree = made;
     return STATUS_OK;
+}
+
+const char *sculpt_import_notes(const char *path, const struct voxelise_report *report, char *text,
+                                size_t size)
+{
+    char repairs[256];
+    const bool repaired = mesh_report_repairs(&report->mesh, repairs, sizeof repairs)[0];
+    const size_t open = report->mesh.boundary_edges;
+    int length = 0;
+    text[0] = '\0';
+    if (repaired)
+        length = snprintf(text, size, "%s: %s%s", path, repairs, open ? "\n" : "");
+    if (open && length >= 0 && (size_t)length < size)
+        snprintf(text + length, size - (size_t)length,
+                 "%s: %zu edges are open; its holes were closed as what surrounds them suggests", path, open);
+    return text;
 }

@@ -13,4 +13,9 @@ bool sculpt_import_is_name(const char *path);
 enum status sculpt_import(const char *path, unsigned depth, struct octree *tree,
                           struct voxelise_report *report, uint64_t *hollow, struct error *err);
 
+/* What was repaired in a mesh, and that it was open, a line each with "\n" between them; "" where there is
+ * nothing to tell. Cut off at size. Returns text. */
+const char *sculpt_import_notes(const char *path, const struct voxelise_report *report, char *text,
+                                size_t size);
+
 #endif

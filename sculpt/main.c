@@ -228,16 +228,14 @@ static enum status import(const struct options *options, struct octree *tree, st
 {
     struct voxelise_report report;
     uint64_t hollow;
-    char repairs[256];
+    char notes[ERROR_TEXT_SIZE];
     unsigned depth = options->depth >= 0 ? (unsigned)options->depth : VOXELISE_DEPTH_DEFAULT;
     enum status status = sculpt_import(options->import, depth, tree, &report, &hollow, err);
     if (status)
         return status;
-    if (mesh_report_repairs(&report.mesh, repairs, sizeof repairs)[0])
-        command_note("%s: %s", options->import, repairs);
-    if (report.mesh.boundary_edges > 0)
-        command_note("%s: %zu edges are open; its holes were closed as what surrounds them suggests",
-                     options->import, report.mesh.boundary_edges);
+    sculpt_import_notes(options->import, &report, notes, sizeof notes);
+    for (char *line = strtok(notes, "\n"); line; line = strtok(NULL, "\n"))
+        command_note("%s", line);
     if (hollow > 0 && !options->solid)
         command_note("%s is hollow: %llu cells within are empty; --solid fills them", options->import,
                      (unsigned long long)hollow);

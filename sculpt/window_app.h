@@ -79,17 +79,18 @@ struct app {
 
     enum question question;
     enum naming naming;
-    enum next next;         /* after ASK_UNSAVED */
-    bool next_when_saved;   /* it waits for the end of a save */
-    bool sure;              /* a file of the name that was typed may be replaced */
-    bool proposed;          /* the answer is not the hand's: what is typed takes its place */
-    char answer[PATH_MAX];  /* typed so far */
-    char opening[PATH_MAX]; /* the sculpture that ASK_RECOVER, or the model that ASK_HOLLOW, is about */
-    struct octree model;    /* imported, while ASK_HOLLOW waits */
-    uint64_t hollow;        /* its empty cells within */
-    const char *written;    /* of the last file: "saving...", "saved" */
-    bool exports;           /* that file is no sculpture */
-    size_t forgotten;       /* session.forgotten, when that was told last */
+    enum next next;              /* after ASK_UNSAVED */
+    bool next_when_saved;        /* it waits for the end of a save */
+    bool sure;                   /* a file of the name that was typed may be replaced */
+    bool proposed;               /* the answer is not the hand's: what is typed takes its place */
+    char answer[PATH_MAX];       /* typed so far */
+    char opening[PATH_MAX];      /* the sculpture that ASK_RECOVER, or the model that ASK_HOLLOW, is about */
+    struct octree model;         /* imported, while ASK_HOLLOW waits */
+    uint64_t hollow;             /* its empty cells within */
+    char notes[ERROR_TEXT_SIZE]; /* what is to be told of it once it is taken */
+    const char *written;         /* of the last file: "saving...", "saved" */
+    bool exports;                /* that file is no sculpture */
+    size_t forgotten;            /* session.forgotten, when that was told last */
     struct hints hints;
     struct error failed; /* what ended the program */
 };

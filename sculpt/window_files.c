@@ -71,6 +71,14 @@ static bool name_model(const char *model, char *name, size_t size)
     return false;
 }
 
+static void tell_of_model(struct app *app)
+{
+    char text[sizeof app->session.warning + sizeof app->notes];
+    const char *warning = app->session.warning;
+    snprintf(text, sizeof text, "%s%s%s", app->notes, *app->notes && *warning ? "\n" : "", warning);
+    app_say(app, text);
+}
+
 void app_take_model(struct app *app, bool fill)
 {
     char name[1024];
@@ -88,8 +96,20 @@ void app_take_model(struct app *app, bool fill)
     if (!status)
         replace_session(app, &fresh);
     octree_clear(&app->model);
-    app_say(app, status ? err.text : app->session.warning);
+    if (status)
+        app_say(app, err.text);
+    else
+        tell_of_model(app);
     app_show_title(app);
+}
+
+static void take_or_ask(struct app *app, const struct voxelise_report *report)
+{
+    sculpt_import_notes(app->opening, report, app->notes, sizeof app->notes);
+    if (app->hollow > 0)
+        app->question = ASK_HOLLOW;
+    else
+        app_take_model(app, false);
 }
 
 static void import(struct app *app)
@@ -98,10 +118,8 @@ static void import(struct app *app)
     struct voxelise_report report;
     if (sculpt_import(app->opening, VOXELISE_DEPTH_DEFAULT, &app->model, &report, &app->hollow, &err))
         app_say(app, err.text);
-    else if (app->hollow > 0)
-        app->question = ASK_HOLLOW;
     else
-        app_take_model(app, false);
+        take_or_ask(app, &report);
 }
 
 static void open_sculpture(struct app *app)

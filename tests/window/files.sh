@@ -91,6 +91,33 @@ sed -n 's/ #.*//; /^chip/p' "$journal" >chips.chips
 balloon-sculpt -q --import cube.obj --script chips.chips -o want.oct
 same_cells recovered.oct want.oct
 
+# what was mended in a mesh, and that it was open, is told, as --import tells it
+notes() { ! command -v import >/dev/null || import -window "$window" -crop 800x40+0+0 +repage "$1.ppm"; } # NAME
+told() { ! command -v import >/dev/null || ! cmp -s silent.ppm "$1.ppm" || fail "nothing is said of $1.obj"; } # NAME
+cp cube.obj whole.obj
+{ cat cube.obj && echo 'f 5 8 4 1'; } >twice.obj
+awk '/^f/ { print "f", $2, $3, $4; if (++faces > 1) print "f", $2, $4, $5; next } { print }' cube.obj >holed.obj
+balloon-sculpt --import twice.obj --info 2>said >info && grep -q 'twice.obj: 2 repeated triangles dropped' said ||
+    fail "a triangle that is there twice is not dropped"
+balloon-sculpt --import holed.obj --info 2>said >info && grep -q 'holed.obj: 3 edges are open; its holes' said ||
+    fail "a cube without half of a side is not open"
+open_sculptor b.oct
+for model in whole twice holed; do
+    press ctrl+o
+    type_name $model.obj
+    wait_title "$model.oct *"
+    settle
+    notes $model
+    picture $model
+    press ctrl+s
+    wait_title $model.oct
+done
+cp whole.ppm silent.ppm 2>/dev/null || true
+told twice
+told holed
+press ctrl+q
+ends 0
+
 # each export is what a script's would be; a file that is there is replaced when one says so twice
 open_sculptor a.oct
 balloon-sculpt -q a.oct --export want.vox --export want.ply --export want.chips
