@@ -15,7 +15,7 @@ if (ulimit -v 330000; balloon-surface --version) >/dev/null 2>&1; then
         refused 1 'ball\.oct: not enough memory' sh -c 'ulimit -v 330000; balloon-surface ball.oct --threads 1 -o a.ply --cube-size "$1"' sh "$works"
     done
     rm ball.chips ball.oct
-    refused 1 'cube\.oct: not enough memory' sh -c 'ulimit -v 400000; balloon-surface cube.oct --cube-size 7e-5 --threads 1 --force -o a.ply'
+    refused 1 'cube\.oct: not enough memory' sh -c 'ulimit -v 400000; balloon-surface -q cube.oct --cube-size 7e-5 --threads 1 --force -o a.ply'
 fi
 refused 1 'cube\.oct: 2000000000 triangles are too many: about .* GB of memory; [0-9]+ work$' balloon-surface cube.oct --triangles 2000000000 -o a.ply
 refused 1 '1e-05u: too small .*at least 0\.0025u' balloon-surface cube.oct --sigma 1e-5u -o a.ply
